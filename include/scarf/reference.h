@@ -1,0 +1,15 @@
+// The CPU reference: the definition that every other implementation is compared with.
+#pragma once
+
+#include <memory>
+
+#include "scarf/scarf.h"
+
+namespace scarf {
+
+/// A SCARF state on the CPU: one thread, plain loops. `accumulation` is c of the dense images.
+/// Errors: illegal_parameter, as checked_geometry and make_levels.
+Result<std::unique_ptr<Scarf>> make_reference_scarf(const Geometry& geometry,
+                                                    double accumulation = kDefaultAccumulation);
+
+}  // namespace scarf

@@ -1,0 +1,67 @@
+// Errors as values: a function that can fail because of its caller or of the world returns a Result.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace scarf {
+
+enum class ErrorCode {
+  illegal_parameter,  ///< a parameter is outside its legal range; the message names both
+  bad_input,          ///< a file or an event stream is not what it should be
+  refused_batch,      ///< a batch of events was refused as a whole; the state is unchanged
+  would_block,        ///< every staging slot is in flight and the caller asked not to wait
+  io,                 ///< the operating system refused to read or write
+  device,             ///< no suitable device, or the device failed
+  device_lost,        ///< the device is gone; every later call on it says so
+  out_of_memory,      ///< host or device memory is exhausted, or a size is beyond the device's limits
+};
+
+/// What went wrong, in one line that says what to do about it.
+struct Error {
+  ErrorCode code = ErrorCode::illegal_parameter;
+  std::string message;
+};
+
+/// A value or the Error that prevented it.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : content_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+  Result(Error error) : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+
+  bool ok() const { return content_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  T& value() & { return std::get<0>(content_); }
+  const T& value() const& { return std::get<0>(content_); }
+  T&& value() && { return std::get<0>(std::move(content_)); }
+  T& operator*() & { return value(); }
+  const T& operator*() const& { return value(); }
+  T&& operator*() && { return std::move(*this).value(); }
+  T* operator->() { return &value(); }
+  const T* operator->() const { return &value(); }
+
+  const Error& error() const { return std::get<1>(content_); }
+
+ private:
+  std::variant<T, Error> content_;
+};
+
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  Result() = default;
+  Result(Error error) : error_(std::move(error)), ok_(false) {}  // NOLINT(google-explicit-constructor)
+
+  bool ok() const { return ok_; }
+  explicit operator bool() const { return ok_; }
+  const Error& error() const { return error_; }
+
+ private:
+  Error error_;
+  bool ok_ = true;
+};
+
+}  // namespace scarf

@@ -1,0 +1,93 @@
+#include "scarf/digest.h"
+
+#include <openssl/evp.h>
+
+#include <concepts>
+
+namespace scarf {
+namespace {
+
+template <std::unsigned_integral T>
+void append(std::vector<uint8_t>& out, T value) {
+  for (size_t i = 0; i < sizeof(T); ++i) out.push_back(static_cast<uint8_t>(value >> (8 * i)));
+}
+
+}  // namespace
+
+struct Digest::Impl {
+  EVP_MD_CTX* context = EVP_MD_CTX_new();
+
+  Impl() { start(); }
+  ~Impl() { EVP_MD_CTX_free(context); }
+  void start() { EVP_DigestInit_ex(context, EVP_sha256(), nullptr); }
+};
+
+Digest::Digest() : impl_(std::make_unique<Impl>()) {}
+Digest::~Digest() = default;
+Digest::Digest(Digest&&) noexcept = default;
+Digest& Digest::operator=(Digest&&) noexcept = default;
+
+void Digest::add(std::span<const uint8_t> bytes) { EVP_DigestUpdate(impl_->context, bytes.data(), bytes.size()); }
+
+std::string Digest::hex() {
+  uint8_t bytes[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  EVP_DigestFinal_ex(impl_->context, bytes, &size);
+  impl_->start();
+  std::string out;
+  for (unsigned i = 0; i < size; ++i) {
+    out += "0123456789abcdef"[bytes[i] >> 4];
+    out += "0123456789abcdef"[bytes[i] & 15];
+  }
+  return out;
+}
+
+void EventDigest::add(const Event& event) {
+  append(buffer_, static_cast<uint64_t>(event.t));
+  append(buffer_, event.x);
+  append(buffer_, event.y);
+  append(buffer_, event.p);
+  if (buffer_.size() >= 64 * 1024) flush();
+}
+
+void EventDigest::flush() {
+  digest_.add(buffer_);
+  buffer_.clear();
+}
+
+std::string EventDigest::hex() {
+  flush();
+  return digest_.hex();
+}
+
+std::vector<uint8_t> state_bytes(const Snapshot& snapshot, size_t patch) {
+  const Geometry& g = snapshot.geometry;
+  const auto i = static_cast<int32_t>(patch % g.x.grid);
+  const auto j = static_cast<int32_t>(patch / g.x.grid);
+  const int64_t filled = snapshot.filled(patch);
+  std::vector<uint8_t> bytes;
+  bytes.reserve(8 + 14 * filled);
+  append(bytes, snapshot.totals[patch]);
+  for (const Event& e : snapshot.ring(patch).first(filled)) {
+    append(bytes, e.x);
+    append(bytes, e.y);
+    append(bytes, e.p);
+    append(bytes, static_cast<uint8_t>(g.x.active(e.x, i) && g.y.active(e.y, j)));
+    append(bytes, static_cast<uint64_t>(e.t));
+  }
+  return bytes;
+}
+
+std::string state_digest(const Snapshot& snapshot) {
+  Digest digest;
+  for (size_t patch = 0; patch < snapshot.totals.size(); ++patch) digest.add(state_bytes(snapshot, patch));
+  return digest.hex();
+}
+
+std::string image_digest(const Image<uint8_t>& image) {
+  Digest digest;
+  digest.add(image.pixels);
+  return digest.hex();
+}
+
+}  // namespace scarf
