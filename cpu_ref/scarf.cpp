@@ -1,5 +1,5 @@
-// SCARF, as defined: patches with circular buffers of their last N events, of which the active ones are shown.
-// Source: "An Event Preserving Velocity Invariant Representation for Event Cameras", 2026.
+// SCARF, as defined: patches with circular buffers of their last N events, of which the active ones are
+// shown. Source: "An Event Preserving Velocity Invariant Representation for Event Cameras", 2026.
 #include <Eigen/Core>
 #include <mutex>
 
@@ -17,7 +17,8 @@ class ReferenceScarf final : public Scarf {
  public:
   ReferenceScarf(const Geometry& geometry, const Levels& levels)
       : geometry_(geometry),
-        u8_levels_(Eigen::Map<const Eigen::Array<uint8_t, Eigen::Dynamic, 1>>(levels.u8.data(), levels.u8.size())),
+        u8_levels_(
+            Eigen::Map<const Eigen::Array<uint8_t, Eigen::Dynamic, 1>>(levels.u8.data(), levels.u8.size())),
         f32_levels_(Eigen::Map<const Eigen::ArrayXf>(levels.f32.data(), levels.f32.size())),
         totals_(geometry.patches(), 0),
         slots_(geometry.patches() * geometry.capacity) {}

@@ -12,8 +12,8 @@
 namespace scarf {
 
 inline constexpr int32_t kMaxSensorSize = 16'384;  ///< pixels per axis
-inline constexpr int32_t kMaxField = 128;          ///< pixels per axis of a receptive field: 7-bit local coordinates
-inline constexpr int32_t kMaxCapacity = 65'535;    ///< slots of one ring buffer
+inline constexpr int32_t kMaxField = 128;  ///< pixels per axis of a receptive field: 7-bit local coordinates
+inline constexpr int32_t kMaxCapacity = 65'535;  ///< slots of one ring buffer
 
 /// Patches first..last (inclusive); empty if last < first.
 struct PatchRange {
@@ -39,9 +39,7 @@ struct GridAxis {
   /// The patches whose field holds pixel v (0 <= v < size).
   PatchRange patches_holding(int32_t v) const;
   /// Whether pixel v lies in the active region of patch i.
-  bool active(int32_t v, int32_t i) const {
-    return v >= origin + i * cell && v < origin + (i + 1) * cell;
-  }
+  bool active(int32_t v, int32_t i) const { return v >= origin + i * cell && v < origin + (i + 1) * cell; }
 
   friend bool operator==(const GridAxis&, const GridAxis&) = default;
 };
@@ -71,7 +69,8 @@ enum class Preset {
 /// refused if given.
 struct PresetParameters {
   std::optional<int32_t> cell;  ///< k, pixels, >= 1; default 9
-  std::optional<double> ratio;  ///< r, receptive field ratio, >= 0; default 1.2; not used by light and event_driven
+  std::optional<double>
+      ratio;  ///< r, receptive field ratio, >= 0; default 1.2; not used by light and event_driven
   std::optional<double> alpha;  ///< scale of the capacity, > 0; default 2.0
 };
 
@@ -83,8 +82,8 @@ Result<Geometry> make_geometry(Preset preset, SensorSize sensor, const PresetPar
 
 /// Checks thirteen integers given by the caller, and returns them.
 /// Legal: sensor 1..16,384 per axis; cell >= 1; grid >= 1; margins >= 0; field <= 128 per axis; capacity
-/// 1..65,535; the active region of patch 0 begins, and that of the last patch ends, within 16,384 pixels of the
-/// sensor.
+/// 1..65,535; the active region of patch 0 begins, and that of the last patch ends, within 16,384 pixels of
+/// the sensor.
 Result<Geometry> checked_geometry(const Geometry& geometry);
 
 /// "paper", "light", ... and back; an unknown name is an error that lists the names.

@@ -32,10 +32,11 @@ struct DeviceOptions {
   /// Index, part of the name, UUID or type of the device. Empty: the environment variable SCARF_DEVICE, and
   /// without that the best-ranked usable device.
   std::string device;
-  /// A CPU device (such as lavapipe) is an error. Also set by a non-empty environment variable SCARF_REQUIRE_GPU.
+  /// A CPU device (such as lavapipe) is an error. Also set by a non-empty environment variable
+  /// SCARF_REQUIRE_GPU.
   bool require_gpu = false;
-  /// How events reach the device: automatic writes into device memory where the host can, and copies elsewhere;
-  /// the others force a path, so that each can be tested on any device.
+  /// How events reach the device: automatic writes into device memory where the host can, and copies
+  /// elsewhere; the others force a path, so that each can be tested on any device.
   enum class Upload { automatic, staged, transfer_queue } upload = Upload::automatic;
   /// Khronos validation layers on; every message is collected by GpuContext::validation_messages().
   bool validation = false;
@@ -74,8 +75,8 @@ struct GpuOptions {
   enum class WhenFull { wait, would_block } when_full = WhenFull::wait;
   /// Staging slots: batches that can be in flight at a time; 1 to 16.
   uint32_t staging_slots = 3;
-  /// Events per submission; 0: chosen for the device. Larger batches are split, smaller ones are gathered until a
-  /// query or flush() needs them. Never changes a result.
+  /// Events per submission; 0: chosen for the device. Larger batches are split, smaller ones are gathered
+  /// until a query or flush() needs them. Never changes a result.
   uint32_t submission_events = 0;
   /// Events walked by one team of invocations; 0: chosen for the device. Never changes a result.
   uint32_t chunk_events = 0;
@@ -83,16 +84,17 @@ struct GpuOptions {
 
 /// Device time of one stage, summed over the submissions that were measured.
 struct StageTime {
-  std::string stage;         ///< "count", "scan", "place", "render", "tone", ...
+  std::string stage;  ///< "count", "scan", "place", "render", "tone", ...
   uint64_t dispatches = 0;
   uint64_t nanoseconds = 0;
 };
 
-/// A SCARF state in device memory. push() returns when the events are in staging memory; see Scarf for the rest.
+/// A SCARF state in device memory. push() returns when the events are in staging memory; see Scarf for the
+/// rest.
 class GpuScarf : public Scarf {
  public:
-  /// Staging memory for n events (up to max_acquire()), to be filled in place: the first `count` of them become
-  /// the next batch at commit(). Acquire and commit belong to the pushing thread, and alternate.
+  /// Staging memory for n events (up to max_acquire()), to be filled in place: the first `count` of them
+  /// become the next batch at commit(). Acquire and commit belong to the pushing thread, and alternate.
   /// Errors: illegal_parameter if n is above max_acquire(), would_block as in push.
   virtual Result<std::span<Event>> acquire(size_t n) = 0;
   virtual Result<PushReport> commit(size_t count) = 0;
@@ -109,9 +111,10 @@ class GpuScarf : public Scarf {
   virtual uint64_t memory_bytes() const = 0;
 };
 
-/// Errors: illegal_parameter as checked_geometry and make_levels; out_of_memory, naming the size and the limit, if
-/// the state does not fit the device.
-Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context, const Geometry& geometry,
+/// Errors: illegal_parameter as checked_geometry and make_levels; out_of_memory, naming the size and the
+/// limit, if the state does not fit the device.
+Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
+                                                 const Geometry& geometry,
                                                  double accumulation = kDefaultAccumulation,
                                                  const GpuOptions& options = {});
 

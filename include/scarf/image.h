@@ -34,8 +34,8 @@ enum class PolarityMode {
   difference,  ///< one plane of ON minus OFF; counts only, since brightness is not negative
 };
 
-/// Brightness of 0..N stored events in one pixel, from one table that every implementation indexes, so that no
-/// implementation does floating-point arithmetic on pixels.
+/// Brightness of 0..N stored events in one pixel, from one table that every implementation indexes, so that
+/// no implementation does floating-point arithmetic on pixels.
 struct Levels {
   std::vector<uint8_t> u8;  ///< min(255, rint((255.0*c)*count)), half to even
   std::vector<float> f32;   ///< (float)(c*(double)count), not clipped

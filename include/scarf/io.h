@@ -16,7 +16,7 @@ namespace scarf {
 /// What a reader met so far.
 struct ReadReport {
   uint64_t events = 0;             ///< events handed out (inside the sensor)
-  uint64_t outside = 0;            ///< events outside the sensor: counted and dropped
+  uint64_t outside = 0;            ///< events outside the sensor (or beyond uint16_t): counted and dropped
   uint64_t back_steps = 0;         ///< events (outside ones included) older than the event before them
   int64_t largest_back_step = 0;   ///< microseconds
   uint64_t unknown_words = 0;      ///< words or lines that the format does not define
@@ -37,7 +37,8 @@ class EventSource {
   virtual std::string_view format() const = 0;
   /// Sensor size, from the file or from the options; nullopt if neither says. Without it no event is outside.
   virtual std::optional<SensorSize> sensor() const = 0;
-  /// Reads up to out.size() events in file order; 0 means the end of the stream.
+  /// Reads up to out.size() events (at least 1) in file order; 0 means the end of the stream. Fewer than
+  /// out.size() do not: a pipe's events are handed out as they come.
   virtual Result<size_t> read(std::span<Event> out) = 0;
   virtual const ReadReport& report() const = 0;
   /// Bytes consumed so far and size of the file (0 if unknown, as for a pipe), for progress displays.
@@ -45,8 +46,10 @@ class EventSource {
   virtual uint64_t bytes_total() const = 0;
 };
 
-/// Opens a recording; "-" is standard input. The format is recognised by content, not by name.
-/// Errors: io (cannot open), bad_input (not recognised, the sensor disagrees with `options`).
+/// Opens a recording; "-" is standard input. The format is recognised by content, not by name: Prophesee RAW in
+/// EVT2 and EVT3, with or without its header, and text lines `t x y p` with t in seconds.
+/// Errors: io (cannot open), bad_input (not recognised, the sensor disagrees with `options`), illegal_parameter
+/// (`options` names a size outside 1..16,384).
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options = {});
 
 /// The sensor size of a source, or the error that asks for `--geometry WxH`.
@@ -58,7 +61,9 @@ enum class WriteFormat { evt2, evt3, text };
 class EventSink {
  public:
   virtual ~EventSink() = default;
-  /// Errors: io; bad_input for an event that the format cannot hold (naming it), such as a back-step in EVT2.
+  /// Errors: io; bad_input for an event that the format cannot hold (naming it): one outside the sensor, and in
+  /// EVT2 and EVT3 a back-step, a coordinate above 2047, or a time below 0 or beyond 4096 turns of the format's
+  /// clock (2^46 us, 2^36 us). The events before it are written.
   virtual Result<void> write(std::span<const Event> events) = 0;
   /// Completes the file. An EventSink destroyed without finish() leaves an incomplete file.
   virtual Result<void> finish() = 0;

@@ -27,7 +27,7 @@ struct PushReport {
 struct Snapshot {
   Geometry geometry;
   std::vector<uint64_t> totals;  ///< per patch: events ever pushed into it
-  std::vector<Event> slots;      ///< patch-major, `capacity` slots per patch in slot order; all-zero where empty
+  std::vector<Event> slots;  ///< patch-major, `capacity` slots per patch in slot order; all-zero where empty
 
   int64_t filled(size_t patch) const {
     const auto capacity = static_cast<uint64_t>(geometry.capacity);
@@ -44,8 +44,8 @@ enum class EventOrder {
   by_time,   ///< merged by t; equal times keep the by_patch order
 };
 
-/// One stream's SCARF state. Implementations (the CPU reference, the GPU) agree bit for bit on everything they
-/// hand out, for any stream and any way of cutting it into batches.
+/// One stream's SCARF state. Implementations (the CPU reference, the GPU) agree bit for bit on everything
+/// they hand out, for any stream and any way of cutting it into batches.
 ///
 /// Threads: one thread pushes and resets; any thread queries. A query sees exactly the pushes that returned
 /// before it was asked, and never changes the state.
@@ -56,8 +56,8 @@ class Scarf {
   virtual const Geometry& geometry() const = 0;
 
   /// Appends a batch (any size, 0 included). Events outside the sensor are counted and dropped.
-  /// Errors: refused_batch, naming the event, if an event inside the sensor has p > 1 or is 2^48 us or more away
-  /// from the stream's first event; then nothing of the batch is stored.
+  /// Errors: refused_batch, naming the event, if an event inside the sensor has p > 1 or is 2^48 us or more
+  /// away from the stream's first event; then nothing of the batch is stored.
   virtual Result<PushReport> push(std::span<const Event> events) = 0;
 
   /// Empties the state, as if newly made.

@@ -7,8 +7,10 @@ namespace {
 
 Error refusal(std::span<const Event> events, size_t index, int64_t t_first) {
   const Event& e = events[index];
-  const std::string name = text("event ", index, " of the batch (t ", e.t, ", x ", e.x, ", y ", e.y, ", p ", int{e.p}, ")");
-  if (e.p > 1) return {ErrorCode::refused_batch, text(name, ": the polarity must be 0 or 1; the batch was not stored")};
+  const std::string name =
+      text("event ", index, " of the batch (t ", e.t, ", x ", e.x, ", y ", e.y, ", p ", int{e.p}, ")");
+  if (e.p > 1)
+    return {ErrorCode::refused_batch, text(name, ": the polarity must be 0 or 1; the batch was not stored")};
   return {ErrorCode::refused_batch,
           text(name, " is 2^48 us or more away from the stream's first event at t ", t_first,
                "; the batch was not stored: correct the times, or reset and start a new stream")};
@@ -16,12 +18,15 @@ Error refusal(std::span<const Event> events, size_t index, int64_t t_first) {
 
 }  // namespace
 
-Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize sensor, std::optional<int64_t> t_first) {
+Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize sensor,
+                                 std::optional<int64_t> t_first) {
   CheckedBatch batch{0, t_first};
   size_t i = 0;
   for (; i < events.size() && !batch.t_first; ++i) {
-    if (sensor.contains(events[i])) batch.t_first = events[i].t;
-    else ++batch.outside;
+    if (sensor.contains(events[i]))
+      batch.t_first = events[i].t;
+    else
+      ++batch.outside;
   }
   if (!batch.t_first) return batch;
   // |t - t_first| < 2^48, as one unsigned comparison that cannot overflow.

@@ -14,12 +14,14 @@ namespace scarf {
 inline constexpr uint64_t kMaxTimeDistance = uint64_t{1} << 48;
 
 struct CheckedBatch {
-  uint64_t outside = 0;            ///< events outside the sensor
-  std::optional<int64_t> t_first;  ///< time of the stream's first event inside the sensor, if there is one by now
+  uint64_t outside = 0;  ///< events outside the sensor
+  std::optional<int64_t>
+      t_first;  ///< time of the stream's first event inside the sensor, if there is one by now
 };
 
 /// Checks a batch against a stream whose first event was at `t_first` (nullopt: no event yet).
 /// Errors: refused_batch, naming the first offending event.
-Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize sensor, std::optional<int64_t> t_first);
+Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize sensor,
+                                 std::optional<int64_t> t_first);
 
 }  // namespace scarf

@@ -23,16 +23,23 @@ constexpr std::array<std::pair<Preset, std::string_view>, 5> kPresetNames = {{
     {Preset::explicit_, "explicit"},
 }};
 
-int32_t floor_div(int32_t a, int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-int32_t ceil_div(int32_t a, int32_t b) { return (a + b - 1) / b; }
+int32_t floor_div(int32_t a, int32_t b) {
+  return a / b - (a % b < 0 ? 1 : 0);
+}
+int32_t ceil_div(int32_t a, int32_t b) {
+  return (a + b - 1) / b;
+}
 
-Error illegal(const std::string& what) { return {ErrorCode::illegal_parameter, what}; }
+Error illegal(const std::string& what) {
+  return {ErrorCode::illegal_parameter, what};
+}
 
 Error out_of_range(std::string_view name, double value, std::string_view range) {
   return illegal(text(name, " is ", value, ", legal is ", range));
 }
 
-// A product of parameters as an integer; nullopt where it would not fit an int32 (then no range check passes).
+// A product of parameters as an integer; nullopt where it would not fit an int32 (then no range check
+// passes).
 std::optional<int32_t> integer(double rounded) {
   if (!(std::abs(rounded) <= 2e9)) return std::nullopt;
   return static_cast<int32_t>(rounded);
@@ -91,8 +98,9 @@ Result<Geometry> light(SensorSize sensor, const Parameters& p) {
 Result<Geometry> event_driven(SensorSize sensor, const Parameters& p) {
   const int32_t k = p.k + p.k % 2;
   if (sensor.width < 2 * k || sensor.height < 2 * k) {
-    return illegal(text("sensor ", sensor.width, "x", sensor.height, " is too small for preset event_driven with cell ",
-                        k, ": the smallest is ", 2 * k, "x", 2 * k));
+    return illegal(text("sensor ", sensor.width, "x", sensor.height,
+                        " is too small for preset event_driven with cell ", k, ": the smallest is ", 2 * k,
+                        "x", 2 * k));
   }
   const auto axis = [k](int32_t size) -> GridAxis {
     const int32_t count = size / k - 1;
@@ -107,8 +115,8 @@ Result<Geometry> event_driven(SensorSize sensor, const Parameters& p) {
 Result<Geometry> event_driven_flex(SensorSize sensor, const Parameters& p) {
   if (sensor.width < p.k || sensor.height < p.k) {
     return illegal(text("sensor ", sensor.width, "x", sensor.height,
-                        " is too small for preset event_driven_flex with cell ", p.k, ": the smallest is ", p.k, "x",
-                        p.k));
+                        " is too small for preset event_driven_flex with cell ", p.k, ": the smallest is ",
+                        p.k, "x", p.k));
   }
   const auto axis = [&p](int32_t size) -> std::optional<GridAxis> {
     const int32_t count = size / p.k;
@@ -120,7 +128,8 @@ Result<Geometry> event_driven_flex(SensorSize sensor, const Parameters& p) {
   const auto x = axis(sensor.width);
   const auto y = axis(sensor.height);
   if (!x || !y) {
-    return illegal(text("ratio ", p.r, " with cell ", p.k, " makes a field of more than 128 pixels; legal is at most 128"));
+    return illegal(text("ratio ", p.r, " with cell ", p.k,
+                        " makes a field of more than 128 pixels; legal is at most 128"));
   }
   return with_capacity(*x, *y, x->cell * (1 + p.r) * y->cell * (1 + p.r) * p.alpha / 4.5, p);
 }
@@ -157,11 +166,16 @@ Result<Geometry> make_geometry(Preset preset, SensorSize sensor, const PresetPar
   const auto p = checked_parameters(preset, parameters);
   if (!p) return p.error();
   switch (preset) {
-    case Preset::paper: return paper(sensor, *p);
-    case Preset::light: return light(sensor, *p);
-    case Preset::event_driven: return event_driven(sensor, *p);
-    case Preset::event_driven_flex: return event_driven_flex(sensor, *p);
-    case Preset::explicit_: break;
+    case Preset::paper:
+      return paper(sensor, *p);
+    case Preset::light:
+      return light(sensor, *p);
+    case Preset::event_driven:
+      return event_driven(sensor, *p);
+    case Preset::event_driven_flex:
+      return event_driven_flex(sensor, *p);
+    case Preset::explicit_:
+      break;
   }
   return illegal("preset explicit needs its thirteen integers: pass them to checked_geometry");
 }

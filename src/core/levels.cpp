@@ -17,7 +17,8 @@ Result<Levels> make_levels(double accumulation, int32_t capacity) {
   levels.f32.reserve(capacity + 1);
   for (int32_t count = 0; count <= capacity; ++count) {
     // nearbyint rounds half to even in the default rounding mode.
-    levels.u8.push_back(static_cast<uint8_t>(std::min(255.0, std::nearbyint((255.0 * accumulation) * count))));
+    levels.u8.push_back(
+        static_cast<uint8_t>(std::min(255.0, std::nearbyint((255.0 * accumulation) * count))));
     levels.f32.push_back(static_cast<float>(accumulation * static_cast<double>(count)));
   }
   return levels;

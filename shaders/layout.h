@@ -1,0 +1,95 @@
+// Push constants and constants shared by the shaders and the host. Read by both compilers.
+#ifndef SCARF_SHADERS_LAYOUT_H
+#define SCARF_SHADERS_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace scarf::layout {
+using uint = uint32_t;
+#define SCARF_CONSTANT inline constexpr uint
+#else
+#define SCARF_CONSTANT const uint
+#endif
+
+// Invocations per workgroup of the kernels that have one invocation per patch, pixel or word.
+// 64: at least one whole subgroup on every known device, and small enough to spread few patches over many cores.
+SCARF_CONSTANT kLinearGroup = 64;
+
+// Invocations of the single workgroup that turns per-patch counts into offsets.
+SCARF_CONSTANT kScanGroup = 256;
+
+// Slots of a ring that one invocation walks in one dispatch; longer rings take several dispatches.
+// A render invocation also clears up to 128 * 128 pixels: 32,768 + 16,384 + 128 + 4 trips stay below 60,000.
+SCARF_CONSTANT kSlotsPerDispatch = 32768;
+
+// A chunk cursor is (hits still to be overwritten) << 16 | (slot of the first surviving hit).
+// Chunks have at most 32,768 events and rings at most 65,535 slots, so both halves fit.
+SCARF_CONSTANT kMaxChunkEvents = 32768;
+SCARF_CONSTANT kCursorSkipOne = 65536;
+
+// What an image counts (PolarityMode).
+SCARF_CONSTANT kModeMerged = 0;
+SCARF_CONSTANT kModeSeparate = 1;
+SCARF_CONSTANT kModeDifference = 2;
+
+// count and place: one batch of events, cut into chunks.
+struct BatchPush {
+  uint first_event;   // index of the batch's first event in the staging buffer
+  uint events;        // events of the batch
+  uint chunk_events;  // events per chunk
+  uint chunks;
+  uint width;         // sensor; the column ranges are ranges[0 .. width], the row ranges ranges[width + 1 ..]
+  uint height;
+  uint grid_x;
+  uint table_stride;  // words of the table per chunk: patches, then one unused word per lane of the team
+  int field_x;        // origin - margin_lo: first pixel of the field of patch 0, may be negative
+  int field_y;
+  uint cell_x;
+  uint cell_y;
+  uint capacity;
+  uint unused_slot;   // first of the slots behind the rings that lanes without a hit write to
+  uint t_first_low;
+  uint t_first_high;
+};
+
+// scan: per-chunk hit counts of a patch to cursors.
+struct ScanPush {
+  uint patches;
+  uint chunks;
+  uint table_stride;
+  uint capacity;
+};
+
+// render and extract: patches of the state.
+struct PatchPush {
+  uint first_patch;
+  uint patches;       // from first_patch on
+  uint grid_x;
+  uint capacity;
+  int field_x;
+  int field_y;
+  uint margin_lo_x;
+  uint margin_lo_y;
+  uint cell_x;
+  uint cell_y;
+  uint width;
+  uint height;
+  uint slot_begin;    // ring slots (render) or ranks from the oldest (extract) of this dispatch
+  uint slot_end;
+  uint mode;          // render: kMode...; extract: 1 = active events only
+  uint render_all;    // render: 1 = also patches that have not changed since they were last drawn
+  uint half_events;   // extract: events that the first half of the output holds
+  uint t_first_low;
+  uint t_first_high;
+};
+
+// tone: counts to brightness.
+struct TonePush {
+  uint pixels;
+};
+
+#ifdef __cplusplus
+}  // namespace scarf::layout
+#endif
+#undef SCARF_CONSTANT
+#endif

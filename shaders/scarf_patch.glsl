@@ -1,0 +1,22 @@
+// A patch of the state, as the render and extract stages see it.
+layout(push_constant) uniform Push { PatchPush push; };
+
+struct Patch {
+  uint ring;    // index of its first slot
+  int field_x;  // first pixel of its unclipped field
+  int field_y;
+};
+
+Patch patch_of(uint patch_id) {
+  const uint i = patch_id % push.grid_x;
+  const uint j = patch_id / push.grid_x;
+  return Patch(patch_id * push.capacity, push.field_x + int(i * push.cell_x), push.field_y + int(j * push.cell_y));
+}
+
+// Slots in use of a patch of which `total` events (low and high word) were pushed.
+uint filled_slots(uvec2 total) { return total.y != 0 ? push.capacity : min(total.x, push.capacity); }
+
+bool is_active(uint low_word) {
+  // Differences below zero wrap to large numbers.
+  return packed_x(low_word) - push.margin_lo_x < push.cell_x && packed_y(low_word) - push.margin_lo_y < push.cell_y;
+}

@@ -1,0 +1,17 @@
+// SCARF, stage "tone": counts to brightness in floating point, looked up and copied as bits.
+// CPU twin: cpu_ref/stages/scarf_tone.cpp
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "layout.h"
+layout(local_size_x = kLinearGroup) in;
+#include "invocation.glsl"
+
+layout(std430, binding = 0) readonly buffer Counts { int counts[]; };
+layout(std430, binding = 1) readonly buffer LevelsFloat { uint levels[]; };
+layout(std430, binding = 2) writeonly buffer Picture { uint picture[]; };
+layout(push_constant) uniform Push { TonePush push; };
+
+void main() {
+  const uint pixel = linear_index();
+  if (pixel < push.pixels) picture[pixel] = levels[counts[pixel]];
+}

@@ -1,0 +1,297 @@
+#include "scarf/pipeline.h"
+
+#include <bit>
+#include <cstring>
+
+#include "shaders/layout.h"
+#include "shaders/shaders.h"
+
+namespace scarf {
+namespace {
+
+using vulkan::BoundKernel;
+using vulkan::Buffer;
+using vulkan::Commands;
+using vulkan::Kernel;
+using vulkan::MemoryUse;
+
+constexpr uint64_t kWord = sizeof(uint32_t);
+
+uint64_t pixels(const Geometry& g) {
+  return uint64_t{static_cast<uint32_t>(g.x.size)} * g.y.size;
+}
+uint64_t ring_slots(const Geometry& g) {
+  return static_cast<uint64_t>(g.patches()) * g.capacity;
+}
+
+uint32_t low_word(int64_t t) {
+  return static_cast<uint32_t>(static_cast<uint64_t>(t));
+}
+uint32_t high_word(int64_t t) {
+  return static_cast<uint32_t>(static_cast<uint64_t>(t) >> 32);
+}
+
+template <class T>
+Result<void> assign(T& target, Result<T> made) {
+  if (!made) return made.error();
+  target = std::move(made).value();
+  return {};
+}
+
+template <class T>
+Result<Buffer> host_buffer(const vulkan::Device& device, const char* name, std::span<const T> content) {
+  auto buffer = Buffer::create(device, name, content.size_bytes(), MemoryUse::upload);
+  if (buffer) std::memcpy(buffer->mapped(), content.data(), content.size_bytes());
+  return buffer;
+}
+
+layout::PatchPush patch_push(const Geometry& g, uint32_t first, uint32_t count) {
+  layout::PatchPush push{};
+  push.first_patch = first;
+  push.patches = count;
+  push.grid_x = g.x.grid;
+  push.capacity = g.capacity;
+  push.field_x = g.x.field_begin(0);
+  push.field_y = g.y.field_begin(0);
+  push.margin_lo_x = g.x.margin_lo;
+  push.margin_lo_y = g.y.margin_lo;
+  push.cell_x = g.x.cell;
+  push.cell_y = g.y.cell;
+  push.width = g.x.size;
+  push.height = g.y.size;
+  return push;
+}
+
+uint32_t image_mode(PolarityMode mode) {
+  switch (mode) {
+    case PolarityMode::merged:
+      return layout::kModeMerged;
+    case PolarityMode::separate:
+      return layout::kModeSeparate;
+    case PolarityMode::difference:
+      return layout::kModeDifference;
+  }
+  return layout::kModeMerged;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ScarfPipeline>> ScarfPipeline::create(vulkan::Device& device, const Geometry& geometry,
+                                                             const Levels& levels, const Plan& plan) {
+  std::unique_ptr<ScarfPipeline> p(new ScarfPipeline);
+  p->device_ = &device;
+  p->geometry_ = geometry;
+  p->plan_ = plan;
+  if (auto r = p->create_buffers(device, levels); !r) return r.error();
+  if (auto r = p->create_kernels(device); !r) return r.error();
+  return p;
+}
+
+Result<void> ScarfPipeline::create_buffers(vulkan::Device& device, const Levels& levels) {
+  const uint64_t patches = plan_.patches;
+  const struct {
+    Buffer& buffer;
+    const char* name;
+    uint64_t bytes;
+  } wanted[] = {
+      {slots_, "the ring buffers (patches x capacity)", (ring_slots(geometry_) + plan_.unused_slots()) * 8},
+      {table_, "the table of chunks and patches", plan_.table_words() * kWord},
+      {heads_, "the ring heads", patches * kWord},
+      {totals_, "the totals", patches * 8},
+      {rendered_, "the totals drawn", patches * 8},
+      {counts_, "the count image (two planes)", (2 * pixels(geometry_) + patches) * kWord},
+      {picture_, "the image (two planes)", 2 * pixels(geometry_) * kWord},
+      {cursors_, "the places of extracted events", patches * kWord},
+  };
+  for (const auto& w : wanted) {
+    if (auto r = assign(w.buffer, Buffer::create(device, w.name, w.bytes, MemoryUse::device)); !r) return r;
+  }
+  const std::vector<uint32_t> ranges = patch_ranges(geometry_);
+  const std::vector<uint32_t> u8(levels.u8.begin(), levels.u8.end());
+  if (auto r = assign(ranges_, host_buffer<uint32_t>(device, "the patch ranges", ranges)); !r) return r;
+  if (auto r = assign(levels_u8_, host_buffer<uint32_t>(device, "the 8-bit levels", u8)); !r) return r;
+  return assign(levels_float_, host_buffer<float>(device, "the float levels", levels.f32));
+}
+
+Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
+  const uint32_t team[] = {plan_.workgroup_size(), plan_.team_x, plan_.team_y, plan_.lane_columns,
+                           plan_.lane_rows};
+  const struct {
+    Kernel& kernel;
+    const char* name;
+    std::span<const uint32_t> spirv;
+    uint32_t bindings;
+    size_t push_bytes;
+    std::span<const uint32_t> constants;
+  } wanted[] = {
+      {count_, "scarf_count", shaders::scarf_count, 3, sizeof(layout::BatchPush), team},
+      {scan_, "scarf_scan", shaders::scarf_scan, 3, sizeof(layout::ScanPush), {}},
+      {place_, "scarf_place", shaders::scarf_place, 4, sizeof(layout::BatchPush), team},
+      {render_, "scarf_render", shaders::scarf_render, 4, sizeof(layout::PatchPush), {}},
+      {tone_u8_, "scarf_tone_u8", shaders::scarf_tone_u8, 3, sizeof(layout::TonePush), {}},
+      {tone_float_, "scarf_tone_float", shaders::scarf_tone_float, 3, sizeof(layout::TonePush), {}},
+      {extract_count_, "scarf_extract_count", shaders::scarf_extract_count, 3, sizeof(layout::PatchPush), {}},
+      {extract_scan_, "scarf_extract_scan", shaders::scarf_extract_scan, 2, sizeof(layout::PatchPush), {}},
+      {extract_write_, "scarf_extract_write", shaders::scarf_extract_write, 6, sizeof(layout::PatchPush), {}},
+  };
+  for (const auto& w : wanted) {
+    const auto push_bytes = static_cast<uint32_t>(w.push_bytes);
+    auto kernel = Kernel::create(device, w.name, w.spirv, w.bindings, push_bytes, w.constants);
+    if (auto r = assign(w.kernel, std::move(kernel)); !r) return r;
+  }
+  const struct {
+    BoundKernel& bound;
+    const Kernel& kernel;
+    std::initializer_list<const Buffer*> buffers;
+  } bindings[] = {
+      {bound_scan_, scan_, {&table_, &heads_, &totals_}},
+      {bound_render_, render_, {&slots_, &totals_, &rendered_, &counts_}},
+      {bound_tone_u8_, tone_u8_, {&counts_, &levels_u8_, &picture_}},
+      {bound_tone_float_, tone_float_, {&counts_, &levels_float_, &picture_}},
+      {bound_extract_count_, extract_count_, {&slots_, &totals_, &cursors_}},
+  };
+  for (const auto& b : bindings) {
+    if (auto r = assign(b.bound, BoundKernel::create(device, b.kernel, b.buffers)); !r) return r;
+  }
+  return {};
+}
+
+Result<PushKernels> ScarfPipeline::bind_events(const Buffer& events) const {
+  PushKernels k;
+  if (auto r = assign(k.count, BoundKernel::create(*device_, count_, {&events, &ranges_, &table_})); !r)
+    return r.error();
+  if (auto r = assign(k.place, BoundKernel::create(*device_, place_, {&events, &ranges_, &table_, &slots_}));
+      !r) {
+    return r.error();
+  }
+  return k;
+}
+
+uint64_t ScarfPipeline::half_events() const {
+  return (ring_slots(geometry_) + 1) / 2;
+}
+
+Result<std::unique_ptr<ExtractTarget>> ScarfPipeline::make_extract_target() const {
+  auto t = std::make_unique<ExtractTarget>();
+  const auto readback = [&](Buffer& buffer, uint64_t bytes) {
+    return assign(buffer, Buffer::create(*device_, "the extracted events", bytes, MemoryUse::readback));
+  };
+  if (auto r = readback(t->total, kWord); !r) return r.error();
+  if (auto r = readback(t->first, half_events() * sizeof(Event)); !r) return r.error();
+  if (auto r = readback(t->second, half_events() * sizeof(Event)); !r) return r.error();
+  if (auto r = assign(t->scan, BoundKernel::create(*device_, extract_scan_, {&cursors_, &t->total})); !r)
+    return r.error();
+  auto write = BoundKernel::create(*device_, extract_write_,
+                                   {&slots_, &totals_, &heads_, &cursors_, &t->first, &t->second});
+  if (auto r = assign(t->write, std::move(write)); !r) return r.error();
+  return t;
+}
+
+void ScarfPipeline::record_reset(Commands& commands) const {
+  // Slots need no clearing: those at and beyond the total are never read. Pixels in no active region are zero
+  // from here on, since no stage writes them.
+  commands.fill(heads_, 0);
+  commands.fill(totals_, 0);
+  commands.fill(rendered_, 0);
+  commands.fill(counts_, 0);
+  commands.mark("reset");
+}
+
+void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, uint32_t first,
+                                uint32_t count, int64_t t_first) const {
+  const Chunking chunking = plan_.cut(count);
+  layout::BatchPush push{};
+  push.first_event = first;
+  push.events = count;
+  push.chunk_events = chunking.chunk_events;
+  push.chunks = chunking.chunks;
+  push.width = geometry_.x.size;
+  push.height = geometry_.y.size;
+  push.grid_x = geometry_.x.grid;
+  push.table_stride = plan_.table_stride;
+  push.field_x = geometry_.x.field_begin(0);
+  push.field_y = geometry_.y.field_begin(0);
+  push.cell_x = geometry_.x.cell;
+  push.cell_y = geometry_.y.cell;
+  push.capacity = geometry_.capacity;
+  push.unused_slot = static_cast<uint32_t>(ring_slots(geometry_));
+  push.t_first_low = low_word(t_first);
+  push.t_first_high = high_word(t_first);
+  const uint64_t lanes = uint64_t{chunking.chunks} * plan_.team_lanes();
+
+  commands.fill(table_, uint64_t{chunking.chunks} * plan_.table_stride * kWord, 0);
+  commands.barrier();
+  commands.mark("clear");
+  commands.dispatch(kernels.count, lanes, plan_.workgroup_size(), push);
+  commands.barrier();
+  commands.mark("count");
+  const layout::ScanPush scan = {plan_.patches, chunking.chunks, plan_.table_stride, push.capacity};
+  commands.dispatch(bound_scan_, plan_.patches, layout::kLinearGroup, scan);
+  commands.barrier();
+  commands.mark("scan");
+  commands.dispatch(kernels.place, lanes, plan_.workgroup_size(), push);
+  commands.barrier();
+  commands.mark("place");
+}
+
+void ScarfPipeline::record_render(Commands& commands, PolarityMode mode, bool all) const {
+  layout::PatchPush push = patch_push(geometry_, 0, plan_.patches);
+  push.mode = image_mode(mode);
+  push.render_all = all ? 1 : 0;
+  for (uint32_t begin = 0; begin < push.capacity; begin += layout::kSlotsPerDispatch) {
+    push.slot_begin = begin;
+    push.slot_end = std::min(begin + layout::kSlotsPerDispatch, push.capacity);
+    commands.dispatch(bound_render_, plan_.patches, layout::kLinearGroup, push);
+    commands.barrier();
+  }
+  commands.mark("render");
+}
+
+void ScarfPipeline::record_tone_u8(Commands& commands, uint32_t planes) const {
+  const layout::TonePush push = {static_cast<uint32_t>(planes * pixels(geometry_))};
+  commands.dispatch(bound_tone_u8_, (push.pixels + 3) / 4, layout::kLinearGroup, push);
+  commands.barrier();
+  commands.mark("tone");
+}
+
+void ScarfPipeline::record_tone_float(Commands& commands, uint32_t planes) const {
+  const layout::TonePush push = {static_cast<uint32_t>(planes * pixels(geometry_))};
+  commands.dispatch(bound_tone_float_, push.pixels, layout::kLinearGroup, push);
+  commands.barrier();
+  commands.mark("tone");
+}
+
+void ScarfPipeline::record_extract(Commands& commands, const ExtractTarget& target, uint32_t first,
+                                   uint32_t count, bool active_only, int64_t t_first) const {
+  layout::PatchPush push = patch_push(geometry_, first, count);
+  push.mode = active_only ? 1 : 0;
+  push.half_events = static_cast<uint32_t>(half_events());
+  push.t_first_low = low_word(t_first);
+  push.t_first_high = high_word(t_first);
+  const auto in_segments = [&](const BoundKernel& kernel) {
+    for (uint32_t begin = 0; begin < push.capacity; begin += layout::kSlotsPerDispatch) {
+      push.slot_begin = begin;
+      push.slot_end = std::min(begin + layout::kSlotsPerDispatch, push.capacity);
+      commands.dispatch(kernel, count, layout::kLinearGroup, push);
+      commands.barrier();
+    }
+  };
+  in_segments(bound_extract_count_);
+  commands.mark("extract_count");
+  commands.dispatch(target.scan, layout::kScanGroup, layout::kScanGroup, push);
+  commands.barrier();
+  commands.mark("extract_scan");
+  in_segments(target.write);
+  commands.mark("extract_write");
+}
+
+uint64_t ScarfPipeline::memory_bytes() const {
+  uint64_t bytes = 0;
+  for (const Buffer* b : {&ranges_, &table_, &heads_, &totals_, &slots_, &rendered_, &counts_, &levels_u8_,
+                          &levels_float_, &picture_, &cursors_}) {
+    bytes += b->size();
+  }
+  return bytes;
+}
+
+}  // namespace scarf

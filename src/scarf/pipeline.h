@@ -1,0 +1,79 @@
+// The stages of SCARF on a device: their kernels, the buffers of one stream's state, and how the work is
+// recorded. Knows nothing of threads, staging or waiting.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "scarf/image.h"
+#include "scarf/plan.h"
+#include "scarf/scarf.h"
+#include "vulkan/commands.h"
+
+namespace scarf {
+
+/// Where extracted events go: host-readable, with room for as many as there are slots.
+struct ExtractTarget {
+  vulkan::Buffer total;   ///< one word: how many events
+  vulkan::Buffer first;   ///< events 0 .. half_events-1
+  vulkan::Buffer second;  ///< the rest
+  vulkan::BoundKernel scan;
+  vulkan::BoundKernel write;
+};
+
+/// The stages that read one staging buffer.
+struct PushKernels {
+  vulkan::BoundKernel count;
+  vulkan::BoundKernel place;
+};
+
+class ScarfPipeline {
+ public:
+  static Result<std::unique_ptr<ScarfPipeline>> create(vulkan::Device& device, const Geometry& geometry,
+                                                       const Levels& levels, const Plan& plan);
+
+  /// Binds a buffer of events (16 bytes each) to the push stages.
+  Result<PushKernels> bind_events(const vulkan::Buffer& events) const;
+  Result<std::unique_ptr<ExtractTarget>> make_extract_target() const;
+
+  /// Empties the state.
+  void record_reset(vulkan::Commands& commands) const;
+  /// count, scan, place: events first .. first+count-1 of the bound buffer; at most Plan::submission_events.
+  void record_push(vulkan::Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
+                   int64_t t_first) const;
+  /// render: brings the counts up to date; with `all` also those of unchanged patches.
+  void record_render(vulkan::Commands& commands, PolarityMode mode, bool all) const;
+  /// tone: the counts of `planes` planes as brightness, in picture().
+  void record_tone_u8(vulkan::Commands& commands, uint32_t planes) const;
+  void record_tone_float(vulkan::Commands& commands, uint32_t planes) const;
+  /// extract_count, extract_scan, extract_write: the events of patches first .. first+count-1.
+  void record_extract(vulkan::Commands& commands, const ExtractTarget& target, uint32_t first, uint32_t count,
+                      bool active_only, int64_t t_first) const;
+
+  uint64_t half_events() const;
+  const vulkan::Buffer& table() const { return table_; }
+  const vulkan::Buffer& heads() const { return heads_; }
+  const vulkan::Buffer& totals() const { return totals_; }
+  const vulkan::Buffer& slots() const { return slots_; }
+  const vulkan::Buffer& counts() const { return counts_; }
+  const vulkan::Buffer& picture() const { return picture_; }
+  const Plan& plan() const { return plan_; }
+  uint64_t memory_bytes() const;
+
+ private:
+  ScarfPipeline() = default;
+  Result<void> create_buffers(vulkan::Device& device, const Levels& levels);
+  Result<void> create_kernels(vulkan::Device& device);
+
+  vulkan::Device* device_ = nullptr;
+  Geometry geometry_;
+  Plan plan_;
+  // Buffers before kernels before bindings: each is destroyed after what uses it.
+  vulkan::Buffer ranges_, table_, heads_, totals_, slots_, rendered_, counts_, levels_u8_, levels_float_,
+      picture_, cursors_;
+  vulkan::Kernel count_, scan_, place_, render_, tone_u8_, tone_float_, extract_count_, extract_scan_,
+      extract_write_;
+  vulkan::BoundKernel bound_scan_, bound_render_, bound_tone_u8_, bound_tone_float_, bound_extract_count_;
+};
+
+}  // namespace scarf

@@ -1,0 +1,125 @@
+#include "scarf/plan.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/text.h"
+#include "shaders/layout.h"
+
+namespace scarf {
+namespace {
+
+uint32_t ceil_div(uint64_t a, uint64_t b) {
+  return static_cast<uint32_t>((a + b - 1) / b);
+}
+
+// Most patches of one axis that hold the same pixel.
+uint32_t most_holders(const GridAxis& axis) {
+  int32_t most = 1;
+  for (int32_t v = 0; v < axis.size; ++v) {
+    const PatchRange range = axis.patches_holding(v);
+    most = std::max(most, range.last - range.first + 1);
+  }
+  return static_cast<uint32_t>(most);
+}
+
+// The table is cleared, summed and walked for every submission, so more of it is not better.
+constexpr uint64_t kTableBytesCpu = uint64_t{32} << 20;
+constexpr uint64_t kTableBytesGpu = uint64_t{256} << 20;
+constexpr uint32_t kSubmissionEventsCpu = 1u << 18;
+constexpr uint32_t kSubmissionEventsGpu = 1u << 20;
+// Chunks that keep every core of a CPU device, or every multiprocessor of a GPU, busy.
+constexpr uint32_t kTargetChunksCpu = 16;
+constexpr uint32_t kTargetChunksGpu = 2048;
+
+constexpr uint32_t kMaxSubmissionEvents = 1u << 24;
+constexpr uint32_t kMaxStagingSlots = 16;
+
+Error illegal(std::string message) {
+  return {ErrorCode::illegal_parameter, std::move(message)};
+}
+
+}  // namespace
+
+uint32_t trips_per_event(uint32_t lane_columns, uint32_t lane_rows) {
+  // One for the event, then the loop over rows (and its entry), and for each row the loop over columns
+  // (likewise).
+  return 1 + (lane_rows + 1) + lane_rows * (lane_columns + 1);
+}
+
+Chunking Plan::cut(uint32_t events) const {
+  if (events == 0) return {};
+  uint32_t chunk = forced_chunk_events != 0 ? forced_chunk_events : ceil_div(events, target_chunks);
+  chunk = std::clamp(chunk, ceil_div(events, max_chunks), max_chunk_events);
+  return {chunk, ceil_div(events, chunk)};
+}
+
+Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, const GpuOptions& options) {
+  if (geometry.patches() > kMaxPatches) {
+    return Error{ErrorCode::out_of_memory,
+                 text("the grid has ", geometry.patches(), " patches, a device stream at most ", kMaxPatches,
+                      "; use larger cells or a smaller sensor")};
+  }
+  if (options.staging_slots < 1 || options.staging_slots > kMaxStagingSlots) {
+    return illegal(text("staging_slots is ", options.staging_slots, ", legal is 1 to ", kMaxStagingSlots));
+  }
+  if (options.submission_events > kMaxSubmissionEvents) {
+    return illegal(
+        text("submission_events is ", options.submission_events, ", legal is 0 to ", kMaxSubmissionEvents));
+  }
+  if (options.chunk_events > layout::kMaxChunkEvents) {
+    return illegal(
+        text("chunk_events is ", options.chunk_events, ", legal is 0 to ", layout::kMaxChunkEvents));
+  }
+  Plan plan;
+  plan.patches = static_cast<uint32_t>(geometry.patches());
+  const uint32_t columns = most_holders(geometry.x);
+  const uint32_t rows = most_holders(geometry.y);
+  const uint32_t lanes = std::bit_floor(std::clamp(limits.subgroup_size, 1u, 64u));
+  plan.team_x = std::min(std::bit_ceil(columns), lanes);
+  plan.team_y = std::min(std::bit_ceil(rows), lanes / plan.team_x);
+  plan.lane_columns = ceil_div(columns, plan.team_x);
+  plan.lane_rows = ceil_div(rows, plan.team_y);
+  plan.teams_per_workgroup = lanes / plan.team_lanes();
+
+  // 8: entries of the loop over the chunk itself, and the compiler's own.
+  const uint32_t budget = (limits.loop_trips - 8) / trips_per_event(plan.lane_columns, plan.lane_rows);
+  plan.max_chunk_events = std::min(layout::kMaxChunkEvents, budget);
+  plan.table_stride = plan.patches + plan.team_lanes();
+  const uint64_t table_bytes = std::min(limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range);
+  const uint64_t chunks_that_fit = table_bytes / (uint64_t{plan.table_stride} * sizeof(uint32_t));
+  const uint32_t scan_budget = (limits.loop_trips - 8) / 2 - 1;  // the scan walks the chunks twice
+  plan.max_chunks =
+      static_cast<uint32_t>(std::clamp<uint64_t>(chunks_that_fit, 1, std::min(scan_budget, 1u << 16)));
+  plan.target_chunks = std::min(plan.max_chunks, limits.cpu ? kTargetChunksCpu : kTargetChunksGpu);
+
+  plan.forced_chunk_events = std::min(options.chunk_events, plan.max_chunk_events);
+  const uint32_t longest = plan.forced_chunk_events != 0 ? plan.forced_chunk_events : plan.max_chunk_events;
+  const uint32_t wanted = options.submission_events != 0 ? options.submission_events
+                          : limits.cpu                   ? kSubmissionEventsCpu
+                                                         : kSubmissionEventsGpu;
+  plan.submission_events =
+      static_cast<uint32_t>(std::min<uint64_t>(wanted, uint64_t{plan.max_chunks} * longest));
+  // No more room than the longest submission can use.
+  plan.max_chunks =
+      std::min(plan.max_chunks, std::max(plan.target_chunks, ceil_div(plan.submission_events, longest)));
+  return plan;
+}
+
+std::vector<uint32_t> patch_ranges(const Geometry& geometry) {
+  constexpr uint32_t kNone = 1;
+  std::vector<uint32_t> ranges;
+  ranges.reserve(geometry.x.size + geometry.y.size + 2);
+  for (const GridAxis* axis : {&geometry.x, &geometry.y}) {
+    for (int32_t v = 0; v < axis->size; ++v) {
+      const PatchRange range = axis->patches_holding(v);
+      const bool none = range.last < range.first;
+      ranges.push_back(none ? kNone
+                            : static_cast<uint32_t>(range.first) | static_cast<uint32_t>(range.last) << 16);
+    }
+    ranges.push_back(kNone);
+  }
+  return ranges;
+}
+
+}  // namespace scarf

@@ -1,0 +1,62 @@
+// How a SCARF stream is laid out and cut into work on a device: a pure function of geometry, limits and
+// options.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scarf/geometry.h"
+#include "scarf/gpu.h"
+#include "scarf/result.h"
+#include "vulkan/device.h"
+
+namespace scarf {
+
+/// One invocation per patch in workgroups of 64, at most 65,535 workgroups on the smallest device, and a scan
+/// of 256 runs of patches within the loop budget of Quirks.
+inline constexpr int64_t kMaxPatches = 4'000'000;
+
+/// A batch as chunks: contiguous runs of events, each walked by one team.
+struct Chunking {
+  uint32_t chunk_events = 0;
+  uint32_t chunks = 0;
+};
+
+struct Plan {
+  uint32_t patches = 0;
+  // A team has team_x * team_y lanes, both powers of two; a lane owns up to lane_columns * lane_rows patches
+  // of one event. See shaders/team.glsl.
+  uint32_t team_x = 1;
+  uint32_t team_y = 1;
+  uint32_t lane_columns = 1;
+  uint32_t lane_rows = 1;
+  uint32_t teams_per_workgroup = 1;
+
+  uint32_t submission_events = 0;  ///< most events of one submission
+  uint32_t max_chunk_events = 0;   ///< most events of one chunk
+  uint32_t max_chunks = 0;         ///< most chunks of one submission
+  uint32_t table_stride = 0;       ///< words of the (chunk, patch) table per chunk
+
+  uint32_t forced_chunk_events = 0;  ///< from the options; 0: free
+  uint32_t target_chunks = 0;        ///< chunks that keep the device busy
+
+  uint32_t team_lanes() const { return team_x * team_y; }
+  uint32_t workgroup_size() const { return team_lanes() * teams_per_workgroup; }
+  uint64_t table_words() const { return uint64_t{table_stride} * max_chunks; }
+  /// Slots behind the rings that lanes without a hit write to.
+  uint64_t unused_slots() const { return uint64_t{max_chunks} * team_lanes(); }
+  /// Cuts a submission of `events` (at most submission_events).
+  Chunking cut(uint32_t events) const;
+};
+
+/// Trips, loop entries included, that a count or place invocation takes per event.
+uint32_t trips_per_event(uint32_t lane_columns, uint32_t lane_rows);
+
+/// Errors: illegal_parameter for options out of range; out_of_memory, by name, for a grid beyond the device.
+Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, const GpuOptions& options);
+
+/// For each column 0 .. width-1 and one column outside, then each row likewise: the patches that hold it, as
+/// first | last << 16; 1 | 0 << 16 where there are none.
+std::vector<uint32_t> patch_ranges(const Geometry& geometry);
+
+}  // namespace scarf

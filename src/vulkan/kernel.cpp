@@ -1,0 +1,152 @@
+#include "vulkan/kernel.h"
+
+#include <utility>
+
+#include "core/text.h"
+
+namespace scarf::vulkan {
+
+Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<const uint32_t> spirv,
+                              uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants) {
+  const Table& calls = device.calls();
+  Kernel k;
+  k.device_ = &device;
+  k.name_ = name;
+  k.push_bytes_ = push_bytes;
+
+  std::vector<VkDescriptorSetLayoutBinding> slots(bindings);
+  for (uint32_t i = 0; i < bindings; ++i) {
+    slots[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  }
+  VkDescriptorSetLayoutCreateInfo set_info{};
+  set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  set_info.bindingCount = bindings;
+  set_info.pBindings = slots.data();
+  if (auto r =
+          device.check(calls.CreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &k.set_layout_),
+                       "CreateDescriptorSetLayout");
+      !r) {
+    return r.error();
+  }
+  const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
+  VkPipelineLayoutCreateInfo layout_info{};
+  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &k.set_layout_;
+  layout_info.pushConstantRangeCount = 1;
+  layout_info.pPushConstantRanges = &range;
+  if (auto r = device.check(calls.CreatePipelineLayout(device.handle(), &layout_info, nullptr, &k.layout_),
+                            "CreatePipelineLayout");
+      !r) {
+    return r.error();
+  }
+
+  VkShaderModuleCreateInfo module_info{};
+  module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  module_info.codeSize = spirv.size_bytes();
+  module_info.pCode = spirv.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  if (auto r = device.check(calls.CreateShaderModule(device.handle(), &module_info, nullptr, &module),
+                            "CreateShaderModule");
+      !r) {
+    return r.error();
+  }
+  std::vector<VkSpecializationMapEntry> entries(constants.size());
+  for (uint32_t i = 0; i < constants.size(); ++i) entries[i] = {i, i * 4, 4};
+  const VkSpecializationInfo specialization = {static_cast<uint32_t>(entries.size()), entries.data(),
+                                               constants.size_bytes(), constants.data()};
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  info.layout = k.layout_;
+  const VkResult result =
+      calls.CreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &k.pipeline_);
+  calls.DestroyShaderModule(device.handle(), module, nullptr);
+  if (auto r = device.check(result, "CreateComputePipelines"); !r) {
+    return Error{r.error().code, text("shader ", name, ": ", r.error().message)};
+  }
+  return k;
+}
+
+Kernel::~Kernel() {
+  if (device_ == nullptr) return;
+  const Table& calls = device_->calls();
+  if (pipeline_ != VK_NULL_HANDLE) calls.DestroyPipeline(device_->handle(), pipeline_, nullptr);
+  if (layout_ != VK_NULL_HANDLE) calls.DestroyPipelineLayout(device_->handle(), layout_, nullptr);
+  if (set_layout_ != VK_NULL_HANDLE)
+    calls.DestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
+}
+
+void Kernel::swap(Kernel& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(name_, other.name_);
+  std::swap(push_bytes_, other.push_bytes_);
+  std::swap(set_layout_, other.set_layout_);
+  std::swap(layout_, other.layout_);
+  std::swap(pipeline_, other.pipeline_);
+}
+
+Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kernel,
+                                        std::initializer_list<const Buffer*> buffers) {
+  const Table& calls = device.calls();
+  BoundKernel b;
+  b.device_ = &device;
+  b.kernel_ = &kernel;
+  const auto count = static_cast<uint32_t>(buffers.size());
+  const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count};
+  VkDescriptorPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool_info.maxSets = 1;
+  pool_info.poolSizeCount = 1;
+  pool_info.pPoolSizes = &size;
+  if (auto r = device.check(calls.CreateDescriptorPool(device.handle(), &pool_info, nullptr, &b.pool_),
+                            "CreateDescriptorPool");
+      !r) {
+    return r.error();
+  }
+  const VkDescriptorSetLayout layout = kernel.set_layout();
+  VkDescriptorSetAllocateInfo set_info{};
+  set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  set_info.descriptorPool = b.pool_;
+  set_info.descriptorSetCount = 1;
+  set_info.pSetLayouts = &layout;
+  if (auto r = device.check(calls.AllocateDescriptorSets(device.handle(), &set_info, &b.set_),
+                            "AllocateDescriptorSets");
+      !r) {
+    return r.error();
+  }
+  std::vector<VkDescriptorBufferInfo> infos;
+  std::vector<VkWriteDescriptorSet> writes;
+  infos.reserve(count);  // the writes point into it
+  for (const Buffer* buffer : buffers) {
+    // The size of a Buffer excludes its guard words, so a shader cannot reach them by accident unnoticed.
+    infos.push_back({buffer->handle(), 0, buffer->size()});
+    VkWriteDescriptorSet write{};
+    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    write.dstSet = b.set_;
+    write.dstBinding = static_cast<uint32_t>(writes.size());
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    write.pBufferInfo = &infos.back();
+    writes.push_back(write);
+  }
+  calls.UpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
+  return b;
+}
+
+BoundKernel::~BoundKernel() {
+  if (pool_ != VK_NULL_HANDLE) device_->calls().DestroyDescriptorPool(device_->handle(), pool_, nullptr);
+}
+
+void BoundKernel::swap(BoundKernel& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(kernel_, other.kernel_);
+  std::swap(pool_, other.pool_);
+  std::swap(set_, other.set_);
+}
+
+}  // namespace scarf::vulkan

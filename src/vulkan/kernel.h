@@ -1,0 +1,72 @@
+// Compute pipelines, and the buffers bound to them.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "vulkan/buffer.h"
+#include "vulkan/device.h"
+
+namespace scarf::vulkan {
+
+/// A compute pipeline over storage buffers 0 .. bindings-1 of set 0 and one push-constant block.
+class Kernel {
+ public:
+  Kernel() = default;
+  Kernel(Kernel&& other) noexcept { swap(other); }
+  Kernel& operator=(Kernel&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Kernel();
+
+  /// `constants` become specialization constants 0, 1, ...; the local size is the shader's business.
+  static Result<Kernel> create(const Device& device, const char* name, std::span<const uint32_t> spirv,
+                               uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants);
+
+  VkPipeline pipeline() const { return pipeline_; }
+  VkPipelineLayout layout() const { return layout_; }
+  VkDescriptorSetLayout set_layout() const { return set_layout_; }
+  uint32_t push_bytes() const { return push_bytes_; }
+  const char* name() const { return name_; }
+
+ private:
+  void swap(Kernel& other) noexcept;
+
+  const Device* device_ = nullptr;
+  const char* name_ = "";
+  uint32_t push_bytes_ = 0;
+  VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+/// A kernel with its buffers: ready to be dispatched. Kernel and buffers must outlive it.
+class BoundKernel {
+ public:
+  BoundKernel() = default;
+  BoundKernel(BoundKernel&& other) noexcept { swap(other); }
+  BoundKernel& operator=(BoundKernel&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~BoundKernel();
+
+  static Result<BoundKernel> create(const Device& device, const Kernel& kernel,
+                                    std::initializer_list<const Buffer*> buffers);
+
+  const Kernel& kernel() const { return *kernel_; }
+  VkDescriptorSet set() const { return set_; }
+
+ private:
+  void swap(BoundKernel& other) noexcept;
+
+  const Device* device_ = nullptr;
+  const Kernel* kernel_ = nullptr;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+}  // namespace scarf::vulkan
