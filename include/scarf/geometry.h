@@ -68,10 +68,9 @@ enum class Preset {
 /// Parameters of a preset; what is not given takes the default. A parameter that the preset does not use is
 /// refused if given.
 struct PresetParameters {
-  std::optional<int32_t> cell;  ///< k, pixels, >= 1; default 9
-  std::optional<double>
-      ratio;  ///< r, receptive field ratio, >= 0; default 1.2; not used by light and event_driven
-  std::optional<double> alpha;  ///< scale of the capacity, > 0; default 2.0
+  std::optional<int32_t> cell = {};  ///< k, pixels, >= 1; default 9
+  std::optional<double> ratio = {};  ///< r, reach of the field in cells, >= 0; default 1.2
+  std::optional<double> alpha = {};  ///< scale of the capacity, > 0; default 2.0
 };
 
 inline constexpr double kDefaultAccumulation = 0.3;  ///< c: brightness of one event in a dense image

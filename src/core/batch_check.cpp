@@ -29,12 +29,14 @@ Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize senso
       ++batch.outside;
   }
   if (!batch.t_first) return batch;
-  // |t - t_first| < 2^48, as one unsigned comparison that cannot overflow.
-  const uint64_t lowest = static_cast<uint64_t>(*batch.t_first) - (kMaxTimeDistance - 1);
+  // |t - t_first| < 2^48, as a range of times that ends where 64 bits end.
+  constexpr auto kReach = static_cast<int64_t>(kMaxTimeDistance - 1);
+  const int64_t earliest = *batch.t_first < INT64_MIN + kReach ? INT64_MIN : *batch.t_first - kReach;
+  const int64_t latest = *batch.t_first > INT64_MAX - kReach ? INT64_MAX : *batch.t_first + kReach;
   for (i = i > 0 ? i - 1 : 0; i < events.size(); ++i) {
     const Event& e = events[i];
     const bool inside = sensor.contains(e);
-    const bool storable = e.p <= 1 && static_cast<uint64_t>(e.t) - lowest <= 2 * (kMaxTimeDistance - 1);
+    const bool storable = e.p <= 1 && e.t >= earliest && e.t <= latest;
     if (inside && !storable) return refusal(events, i, *batch.t_first);
     batch.outside += inside ? 0 : 1;
   }

@@ -15,7 +15,10 @@ Result<Levels> make_levels(double accumulation, int32_t capacity) {
   Levels levels;
   levels.u8.reserve(capacity + 1);
   levels.f32.reserve(capacity + 1);
-  for (int32_t count = 0; count <= capacity; ++count) {
+  // No event is black for every accumulation, also where 255 * c is infinite and times 0 not a number.
+  levels.u8.push_back(0);
+  levels.f32.push_back(0);
+  for (int32_t count = 1; count <= capacity; ++count) {
     // nearbyint rounds half to even in the default rounding mode.
     levels.u8.push_back(
         static_cast<uint8_t>(std::min(255.0, std::nearbyint((255.0 * accumulation) * count))));

@@ -27,7 +27,9 @@ Digest::~Digest() = default;
 Digest::Digest(Digest&&) noexcept = default;
 Digest& Digest::operator=(Digest&&) noexcept = default;
 
-void Digest::add(std::span<const uint8_t> bytes) { EVP_DigestUpdate(impl_->context, bytes.data(), bytes.size()); }
+void Digest::add(std::span<const uint8_t> bytes) {
+  EVP_DigestUpdate(impl_->context, bytes.data(), bytes.size());
+}
 
 std::string Digest::hex() {
   uint8_t bytes[EVP_MAX_MD_SIZE];

@@ -197,8 +197,7 @@ void ScarfPipeline::record_reset(Commands& commands) const {
   commands.mark("reset");
 }
 
-void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, uint32_t first,
-                                uint32_t count, int64_t t_first) const {
+layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int64_t t_first) const {
   const Chunking chunking = plan_.cut(count);
   layout::BatchPush push{};
   push.first_event = first;
@@ -217,21 +216,37 @@ void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, 
   push.unused_slot = static_cast<uint32_t>(ring_slots(geometry_));
   push.t_first_low = low_word(t_first);
   push.t_first_high = high_word(t_first);
-  const uint64_t lanes = uint64_t{chunking.chunks} * plan_.team_lanes();
+  return push;
+}
 
-  commands.fill(table_, uint64_t{chunking.chunks} * plan_.table_stride * kWord, 0);
+void ScarfPipeline::record_count(Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const {
+  commands.fill(table_, uint64_t{push.chunks} * plan_.table_stride * kWord, 0);
   commands.barrier();
   commands.mark("clear");
-  commands.dispatch(kernels.count, lanes, plan_.workgroup_size(), push);
+  commands.dispatch(kernels.count, uint64_t{push.chunks} * plan_.team_lanes(), plan_.workgroup_size(), push);
   commands.barrier();
   commands.mark("count");
-  const layout::ScanPush scan = {plan_.patches, chunking.chunks, plan_.table_stride, push.capacity};
+}
+
+void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& push) const {
+  const layout::ScanPush scan = {plan_.patches, push.chunks, plan_.table_stride, push.capacity};
   commands.dispatch(bound_scan_, plan_.patches, layout::kLinearGroup, scan);
   commands.barrier();
   commands.mark("scan");
-  commands.dispatch(kernels.place, lanes, plan_.workgroup_size(), push);
+}
+
+void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const {
+  commands.dispatch(kernels.place, uint64_t{push.chunks} * plan_.team_lanes(), plan_.workgroup_size(), push);
   commands.barrier();
   commands.mark("place");
+}
+
+void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
+                                int64_t t_first) const {
+  const layout::BatchPush push = batch_push(first, count, t_first);
+  record_count(commands, kernels, push);
+  record_scan(commands, push);
+  record_place(commands, kernels, push);
 }
 
 void ScarfPipeline::record_render(Commands& commands, PolarityMode mode, bool all) const {

@@ -8,6 +8,7 @@
 #include "scarf/image.h"
 #include "scarf/plan.h"
 #include "scarf/scarf.h"
+#include "shaders/layout.h"
 #include "vulkan/commands.h"
 
 namespace scarf {
@@ -41,6 +42,11 @@ class ScarfPipeline {
   /// count, scan, place: events first .. first+count-1 of the bound buffer; at most Plan::submission_events.
   void record_push(vulkan::Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
                    int64_t t_first) const;
+  /// The stages of record_push one by one, for tests.
+  layout::BatchPush batch_push(uint32_t first, uint32_t count, int64_t t_first) const;
+  void record_count(vulkan::Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const;
+  void record_scan(vulkan::Commands& commands, const layout::BatchPush& push) const;
+  void record_place(vulkan::Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const;
   /// render: brings the counts up to date; with `all` also those of unchanged patches.
   void record_render(vulkan::Commands& commands, PolarityMode mode, bool all) const;
   /// tone: the counts of `planes` planes as brightness, in picture().

@@ -1,0 +1,47 @@
+// CPU twins of the shader stages: the same buffers in, the same buffers out, so that a difference between the
+// device and the reference can be traced to one stage. Plain loops; the lanes' unused entries of the device
+// are left out.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "scarf/event.h"
+#include "shaders/layout.h"
+
+namespace scarf::stages {
+
+/// shaders/scarf_count.comp: adds the hits of each chunk on each patch to `table` (chunk-major,
+/// push.table_stride).
+void scarf_count(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
+                 const layout::BatchPush& push);
+
+/// shaders/scarf_scan.comp: hit counts become cursors; heads and totals advance.
+void scarf_scan(std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
+                const layout::ScanPush& push);
+
+/// shaders/scarf_place.comp: stores the hits that survive the batch.
+void scarf_place(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
+                 std::span<uint64_t> slots, const layout::BatchPush& push);
+
+/// shaders/scarf_render.comp: counts the active events of slots push.slot_begin .. push.slot_end - 1.
+void scarf_render(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
+                  std::span<int32_t> counts, const layout::PatchPush& push);
+
+/// shaders/scarf_tone_u8.comp and scarf_tone_float.comp: `levels` of the counts.
+template <class Level>
+void scarf_tone(std::span<const int32_t> counts, std::span<const Level> levels, std::span<Level> picture) {
+  for (size_t pixel = 0; pixel < picture.size(); ++pixel) picture[pixel] = levels[counts[pixel]];
+}
+
+/// shaders/scarf_extract_count.comp: events to hand out per patch of push.
+void scarf_extract_count(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
+                         std::span<uint32_t> cursors, const layout::PatchPush& push);
+/// shaders/scarf_extract_scan.comp: exclusive sums of the counts; returns the sum of all.
+uint32_t scarf_extract_scan(std::span<uint32_t> cursors);
+/// shaders/scarf_extract_write.comp: the events, oldest to newest per patch.
+void scarf_extract_write(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
+                         std::span<const uint32_t> heads, std::span<uint32_t> cursors, std::span<Event> out,
+                         const layout::PatchPush& push);
+
+}  // namespace scarf::stages

@@ -1,0 +1,95 @@
+#include "io/byte_reader.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "core/text.h"
+
+namespace scarf {
+namespace {
+
+Error system_error(const char* what) {
+  return {ErrorCode::io, text(what, ": ", std::generic_category().message(errno))};
+}
+
+// A file descriptor, closed with the last copy of the reader's function; standard input stays open.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ != STDIN_FILENO) close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  Result<size_t> read_some(std::span<uint8_t> out) const {
+    for (;;) {
+      const ssize_t count = read(fd_, out.data(), out.size());
+      if (count >= 0) return static_cast<size_t>(count);
+      if (errno != EINTR) return system_error("cannot read");
+    }
+  }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+ByteReader::ByteReader(ReadSome read_some, uint64_t total)
+    : read_some_(std::move(read_some)),
+      buffer_(std::make_unique_for_overwrite<uint8_t[]>(kCapacity)),
+      total_(total) {}
+
+Result<ByteReader> ByteReader::open(const std::string& path) {
+  const int fd = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return system_error("cannot open");
+  auto file = std::make_shared<Descriptor>(fd);
+  struct stat status {};
+  const bool sized = fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
+  return ByteReader([file](std::span<uint8_t> out) { return file->read_some(out); },
+                    sized ? static_cast<uint64_t>(status.st_size) : 0);
+}
+
+ByteReader ByteReader::over(std::span<const uint8_t> bytes) {
+  const auto read_some = [rest = bytes](std::span<uint8_t> out) mutable -> Result<size_t> {
+    const size_t count = std::min(out.size(), rest.size());
+    std::copy_n(rest.begin(), count, out.begin());
+    rest = rest.subspan(count);
+    return count;
+  };
+  return ByteReader(read_some, bytes.size());
+}
+
+Result<void> ByteReader::refill() {
+  if (ended_) return {};
+  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  const auto count = read_some_({buffer_.get() + end_, kCapacity - end_});
+  if (!count) return count.error();
+  end_ += *count;
+  ended_ = *count == 0;
+  return {};
+}
+
+Result<void> ByteReader::fill(size_t count) {
+  while (available().size() < count && !ended_) {
+    if (const auto refilled = refill(); !refilled) return refilled;
+  }
+  return {};
+}
+
+void ByteReader::skip(size_t count) {
+  begin_ += count;
+  consumed_ += count;
+}
+
+}  // namespace scarf

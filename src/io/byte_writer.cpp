@@ -1,0 +1,56 @@
+#include "io/byte_writer.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/text.h"
+
+namespace scarf {
+namespace {
+
+Error system_error(const std::string& path, const char* what) {
+  return {ErrorCode::io, text(path, ": ", what, ": ", std::generic_category().message(errno))};
+}
+
+}  // namespace
+
+ByteWriter::ByteWriter(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
+
+ByteWriter::ByteWriter(ByteWriter&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), buffer_(std::move(other.buffer_)) {}
+
+ByteWriter::~ByteWriter() {
+  if (fd_ >= 0) close(fd_);
+}
+
+Result<ByteWriter> ByteWriter::create(const std::string& path) {
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd < 0) return system_error(path, "cannot create");
+  return ByteWriter(fd, path);
+}
+
+Result<void> ByteWriter::flush() {
+  if (fd_ < 0)
+    return Error{ErrorCode::io, text(path_, ": is finished already; create it anew to write more")};
+  for (size_t at = 0; at < buffer_.size();) {
+    const ssize_t count = write(fd_, buffer_.data() + at, buffer_.size() - at);
+    if (count >= 0)
+      at += static_cast<size_t>(count);
+    else if (errno != EINTR)
+      return system_error(path_, "cannot write");
+  }
+  buffer_.clear();
+  return {};
+}
+
+Result<void> ByteWriter::finish() {
+  if (const auto flushed = flush(); !flushed) return flushed;
+  if (close(std::exchange(fd_, -1)) != 0) return system_error(path_, "cannot close");
+  return {};
+}
+
+}  // namespace scarf

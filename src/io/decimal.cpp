@@ -1,0 +1,79 @@
+#include "io/decimal.h"
+
+#include <algorithm>
+
+namespace scarf {
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Takes a sign off the front; true if it was a minus.
+bool take_sign(std::string_view& token) {
+  if (token.empty() || (token[0] != '-' && token[0] != '+')) return false;
+  const bool negative = token[0] == '-';
+  token.remove_prefix(1);
+  return negative;
+}
+
+}  // namespace
+
+std::optional<int64_t> integer_from(std::string_view token) {
+  constexpr int64_t kLimit = int64_t{1} << 31;
+  const bool negative = take_sign(token);
+  if (token.empty()) return std::nullopt;
+  int64_t value = 0;
+  for (const char c : token) {
+    if (!is_digit(c)) return std::nullopt;
+    value = std::min(value * 10 + (c - '0'), kLimit);
+  }
+  return negative ? -value : value;
+}
+
+std::optional<int64_t> microseconds_from_seconds(std::string_view token) {
+  const bool negative = take_sign(token);
+  size_t point = token.npos;
+  int64_t exponent = 0;
+  for (size_t i = 0; i < token.size(); ++i) {
+    if (token[i] == '.' && point == token.npos) point = i;
+    if (token[i] != 'e' && token[i] != 'E') continue;
+    const auto value = integer_from(token.substr(i + 1));
+    if (!value) return std::nullopt;
+    exponent = *value;
+    token = token.substr(0, i);
+  }
+  point = std::min(point, token.size());
+
+  // The first `whole` digits make the microseconds, the next one decides the rounding.
+  const int64_t whole = static_cast<int64_t>(point) + exponent + 6;
+  int64_t value = 0;
+  int64_t index = 0;
+  int rounding = 0;
+  bool finer = false;  // something is left behind the rounding digit
+  for (size_t i = 0; i < token.size(); ++i) {
+    if (i == point) continue;
+    if (!is_digit(token[i])) return std::nullopt;
+    const int digit = token[i] - '0';
+    if (index < whole) {
+      if (value > kMaxTextTime / 10) return std::nullopt;
+      value = value * 10 + digit;
+    } else if (index == whole) {
+      rounding = digit;
+    } else {
+      finer |= digit != 0;
+    }
+    ++index;
+  }
+  if (index == 0) return std::nullopt;
+  for (; index < whole && value != 0; ++index) {
+    if (value > kMaxTextTime / 10) return std::nullopt;
+    value *= 10;
+  }
+  // Half up is towards plus infinity: a negative time moves away from zero only beyond the half.
+  if (rounding > 5 || (rounding == 5 && (!negative || finer))) ++value;
+  if (value >= kMaxTextTime) return std::nullopt;
+  return negative ? -value : value;
+}
+
+}  // namespace scarf

@@ -1,0 +1,49 @@
+// Writer of EVT2: one TIME_HIGH word per change of the time's upper bits.
+#include <optional>
+#include <utility>
+
+#include "io/checked_sink.h"
+#include "io/evt2.h"
+#include "io/prophesee_header.h"
+#include "io/writers.h"
+
+namespace scarf {
+namespace {
+
+constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt2::kTimeHighBits + evt2::kTimeLowBits));
+
+class Evt2Writer final : public CheckedSink {
+ public:
+  Evt2Writer(ByteWriter output, SensorSize sensor)
+      : CheckedSink(std::move(output), sensor, {"EVT2", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
+    output_.append(prophesee_header_text(WordFormat::evt2, sensor));
+  }
+
+ protected:
+  void encode(std::span<const Event> events) override {
+    for (const Event& e : events) {
+      const auto t = static_cast<uint64_t>(e.t);
+      const uint64_t high = t >> evt2::kTimeLowBits;
+      if (high != high_) {
+        carry_high_counter<evt2::kTimeHighBits>(high_, high,
+                                                [&](uint32_t value) { put(evt2::kTimeHigh, value); });
+        high_ = high;
+      }
+      const uint32_t low = t & ((1 << evt2::kTimeLowBits) - 1);
+      put(e.p ? evt2::kOn : evt2::kOff, low << 22 | uint32_t{e.x} << 11 | e.y);
+    }
+  }
+
+ private:
+  void put(evt2::Type type, uint32_t payload) { output_.append_word(uint32_t{type} << 28 | payload); }
+
+  std::optional<uint64_t> high_;  // what a reader's TIME_HIGH counter holds, wraps included
+};
+
+}  // namespace
+
+std::unique_ptr<EventSink> make_evt2_writer(ByteWriter output, SensorSize sensor) {
+  return std::make_unique<Evt2Writer>(std::move(output), sensor);
+}
+
+}  // namespace scarf

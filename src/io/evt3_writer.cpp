@@ -1,0 +1,116 @@
+// Writer of EVT3: a word for what changed, and vectors where they are shorter than single events.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "io/checked_sink.h"
+#include "io/evt3.h"
+#include "io/prophesee_header.h"
+#include "io/writers.h"
+
+namespace scarf {
+namespace {
+
+constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt3::kTimeHighBits + evt3::kTimeLowBits));
+
+// Vectors come as VECT_12, VECT_12, VECT_8 within the sensor: the only ones that every known reader accepts.
+constexpr int32_t kVectorLength = 32;
+constexpr size_t kFewestInVector = 5;  // of 4 words
+
+class Evt3Writer final : public CheckedSink {
+ public:
+  Evt3Writer(ByteWriter output, SensorSize sensor)
+      : CheckedSink(std::move(output), sensor, {"EVT3", 0, kTimeEnd, false, evt3::kCoordinateMask}),
+        last_base_(std::min<int32_t>(sensor.width, evt3::kCoordinateMask + 1) - kVectorLength) {
+    output_.append(prophesee_header_text(WordFormat::evt3, sensor));
+  }
+
+ protected:
+  void encode(std::span<const Event> events) override {
+    while (!events.empty()) {
+      const Event& first = events.front();
+      set_time(static_cast<uint64_t>(first.t));
+      set_row(first.y);
+      const size_t run = last_base_ >= 0 ? vector_run(events) : 0;
+      if (run >= kFewestInVector) {
+        put_vector(events.first(run));
+      } else {
+        put(evt3::kAddrX, uint32_t{first.p} << 11 | first.x);
+      }
+      events = events.subspan(run >= kFewestInVector ? run : 1);
+    }
+  }
+
+ private:
+  struct VectorBase {
+    uint32_t x;
+    uint32_t p;
+    friend bool operator==(const VectorBase&, const VectorBase&) = default;
+  };
+
+  // The base of a vector that holds pixel x.
+  uint32_t base_of(uint32_t x) const { return std::min(x, static_cast<uint32_t>(last_base_)); }
+
+  // Events at the front that one vector can hold: of one time, row and polarity, from left to right.
+  size_t vector_run(std::span<const Event> events) const {
+    const Event& first = events.front();
+    const uint32_t end = base_of(first.x) + kVectorLength;
+    size_t run = 1;
+    for (; run < events.size() && run < kVectorLength; ++run) {
+      const Event& e = events[run];
+      if (e.t != first.t || e.y != first.y || e.p != first.p || e.x <= events[run - 1].x || e.x >= end) break;
+    }
+    return run;
+  }
+
+  void put_vector(std::span<const Event> events) {
+    const VectorBase base{base_of(events.front().x), events.front().p};
+    if (base_ != base) put(evt3::kVectBaseX, base.p << 11 | base.x);
+    uint32_t mask = 0;
+    for (const Event& e : events) mask |= uint32_t{1} << (e.x - base.x);
+    put(evt3::kVect12, mask & 0xFFF);
+    put(evt3::kVect12, mask >> 12 & 0xFFF);
+    put(evt3::kVect8, mask >> 24);
+    base_ = VectorBase{base.x + kVectorLength, base.p};
+  }
+
+  void set_time(uint64_t t) {
+    const uint64_t high = t >> evt3::kTimeLowBits;
+    const uint32_t low = t & evt3::kPayloadMask;
+    if (high != high_) {
+      carry_high_counter<evt3::kTimeHighBits>(high_, high,
+                                              [&](uint32_t value) { put(evt3::kTimeHigh, value); });
+      high_ = high;
+      low_.reset();  // some readers keep it, others set it to 0
+    }
+    if (low != low_) {
+      put(evt3::kTimeLow, low);
+      low_ = low;
+    }
+  }
+
+  void set_row(uint32_t y) {
+    if (y == y_) return;
+    put(evt3::kAddrY, y);
+    y_ = y;
+  }
+
+  void put(evt3::Type type, uint32_t payload) {
+    output_.append_word(static_cast<uint16_t>(uint32_t{type} << 12 | payload));
+  }
+
+  int32_t last_base_;  // the rightmost one with the whole vector inside the sensor; negative if there is none
+  // What a reader holds after the words so far.
+  std::optional<uint64_t> high_;  // its TIME_HIGH counter, wraps included
+  std::optional<uint32_t> low_;
+  std::optional<uint32_t> y_;
+  std::optional<VectorBase> base_;
+};
+
+}  // namespace
+
+std::unique_ptr<EventSink> make_evt3_writer(ByteWriter output, SensorSize sensor) {
+  return std::make_unique<Evt3Writer>(std::move(output), sensor);
+}
+
+}  // namespace scarf

@@ -1,0 +1,96 @@
+// Any bytes at all, in pieces of any size: never a crash, and the same events however they are read.
+#include <filesystem>
+
+#include "io_test_helpers.h"
+
+namespace scarf {
+namespace {
+
+// Small files with words of every kind, and text.
+std::vector<Bytes> seeds() {
+  std::mt19937 random(5);
+  Bytes evt3 = bytes_of("% evt 3.0\n% geometry 1500x1200\n% end\n");
+  Bytes evt2 = bytes_of("% evt 2.0\n% geometry 1500x1200\n% end\n");
+  constexpr uint32_t kEvt2Types[] = {0, 1, 8, 0, 1, 0, 1, 0xA, 0xE, 0xF, 1, 0xD, 5, 0, 1, 8};
+  for (int i = 0; i < 120; ++i) {
+    const uint32_t word = i == 0 ? 0x8001 : static_cast<uint32_t>(random()) & 0xFFFF;
+    for (int b = 0; b < 2; ++b) evt3.push_back(static_cast<uint8_t>(word >> (8 * b)));
+    const uint32_t type = i == 0 ? 8 : kEvt2Types[random() % 16];
+    const uint32_t word2 = (static_cast<uint32_t>(random()) & 0x0FFFFFFF) | type << 28;
+    for (int b = 0; b < 4; ++b) evt2.push_back(static_cast<uint8_t>(word2 >> (8 * b)));
+  }
+  return {
+      evt2, evt3,
+      bytes_of(
+          "# c\n240 180\n0.1 1 2 1\n\n0.05 3 4 0\r\nx\n0.2,999,1,true\n1e-3 99999 1 1\n-1.5 2 3 -1\n0.3 1")};
+}
+
+void expect_same_however_read(const Bytes& bytes) {
+  const auto whole = read_all(bytes, {}, 100'000);
+  for (const size_t batch : {1, 2, 11, 13}) {
+    const auto r = read_all(bytes, {}, batch);
+    EXPECT_EQ(r.events, whole.events);
+    EXPECT_EQ(r.report, whole.report);
+  }
+  for (const size_t step : {1, 3, 7}) {
+    const auto r = read_all(dripping(bytes, step), {}, 5);
+    EXPECT_EQ(r.events, whole.events);
+    EXPECT_EQ(r.report, whole.report);
+    EXPECT_EQ(r.error, whole.error);
+  }
+}
+
+TEST(HostileInput, TheSeedsHoldEvents) {
+  for (const Bytes& bytes : seeds()) {
+    const auto r = read_all(bytes);
+    EXPECT_EQ(r.error, "");
+    EXPECT_GT(r.events.size(), 2u);
+    EXPECT_GT(r.report.outside, 0u);
+    EXPECT_GT(r.report.unknown_words, 0u);
+    EXPECT_GT(r.report.back_steps, 0u);
+  }
+}
+
+TEST(HostileInput, SmallFilesCutAtEveryLength) {
+  for (const Bytes& bytes : seeds()) {
+    for (size_t length = 0; length <= bytes.size(); ++length) {
+      expect_same_however_read(Bytes(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(length)));
+    }
+  }
+}
+
+TEST(HostileInput, DamagedFiles) {
+  std::mt19937 random(6);
+  for (const Bytes& original : seeds()) {
+    for (int i = 0; i < 300; ++i) {
+      Bytes bytes = original;
+      for (int k = 0; k < 5; ++k) bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+      expect_same_however_read(bytes);
+    }
+  }
+}
+
+TEST(HostileInput, RandomBytes) {
+  std::mt19937 random(7);
+  for (const char* header : {"", "% evt 2.0\n% end\n", "% evt 3.0\n% end\n",
+                             "% evt 3.0\n% geometry 640x480\n", "% system_ID 21\n", "240 180\n0.1 1 1 1\n"}) {
+    for (int i = 0; i < 20; ++i) {
+      Bytes bytes = bytes_of(header);
+      const size_t length = random() % 3000;
+      for (size_t k = 0; k < length; ++k) bytes.push_back(static_cast<uint8_t>(random()));
+      expect_same_however_read(bytes);
+    }
+  }
+}
+
+TEST(HostileInput, RandomBytesWithoutAHeaderAreNotRecognised) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 200; ++i) {
+    Bytes bytes;
+    for (int k = 0; k < 2000; ++k) bytes.push_back(static_cast<uint8_t>(random()));
+    EXPECT_NE(read_all(bytes).error, "") << i;
+  }
+}
+
+}  // namespace
+}  // namespace scarf

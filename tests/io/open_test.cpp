@@ -1,0 +1,216 @@
+// Recognition, headers, geometry, pipes.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "io_test_helpers.h"
+
+namespace scarf {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::optional<SensorSize> sensor_of(std::string_view header, const ReadOptions& options = {}) {
+  const auto r = read_all(with_words<uint32_t>(header, {0x80000000u, 0x10000000u}), options);
+  EXPECT_EQ(r.error, "") << header;
+  return r.sensor;
+}
+
+std::string error_of(std::string_view header, const ReadOptions& options = {}) {
+  return read_all(with_words<uint32_t>(header, {0x80000000u, 0x10000000u}), options).error;
+}
+
+TEST(PropheseeHeader, FindsTheSensor) {
+  EXPECT_EQ(sensor_of("% format EVT2;height=720;width=1280\n% end\n"), (SensorSize{1280, 720}));
+  EXPECT_EQ(sensor_of("% format EVT2;width=1280;height=720;endianness=little\r\n% end\r\n"),
+            (SensorSize{1280, 720}));
+  EXPECT_EQ(sensor_of("% evt 2.0\n% geometry 640x480\n% end\n"), (SensorSize{640, 480}));
+  EXPECT_EQ(sensor_of("% Date 2020-09-25 07:48:31\n% system_ID 21\n"), (SensorSize{640, 480}));
+  EXPECT_EQ(sensor_of("% evt 2.0\n% system_ID 154\n% end\n"), (SensorSize{1280, 720}))
+      << "26 with the EVK proxy bit";
+  EXPECT_EQ(sensor_of("% evt 2.0\n% system_ID 999\n% end\n"), std::nullopt);
+  EXPECT_EQ(sensor_of("% evt 2.0\n% system_ID 21\n% geometry 304x240\n% end\n"), (SensorSize{304, 240}));
+}
+
+TEST(PropheseeHeader, TheFormatComesFromFormatThenEvtThenSystem) {
+  const auto format_of = [](std::string_view header) { return read_all(bytes_of(header)).format; };
+  EXPECT_EQ(format_of("% evt 2.0\n% format EVT3;height=720;width=1280\n% end\n"), "EVT3");
+  EXPECT_EQ(format_of("% evt 3.0\n% system_ID 21\n% end\n"), "EVT3");
+  EXPECT_EQ(format_of("% system_ID 48\n% end\n"), "EVT3");
+  EXPECT_EQ(format_of("% system_ID 21\n% end\n"), "EVT2");
+}
+
+TEST(PropheseeHeader, RefusesWhatItCannotMean) {
+  EXPECT_THAT(error_of("% format EVT2;height=720;width=1280\n% geometry 640x480\n% end\n"),
+              AllOf(HasSubstr("1280x720"), HasSubstr("640x480")));
+  EXPECT_THAT(error_of("% evt 2.0\n% geometry 0x480\n% end\n"), HasSubstr("0x480"));
+  EXPECT_THAT(error_of("% evt 2.0\n% geometry large\n% end\n"), HasSubstr("large"));
+  EXPECT_THAT(error_of("% format EVT2;width=640\n% end\n"), HasSubstr("format"));
+  EXPECT_THAT(error_of("% format EVT21;height=720;width=1280\n% end\n"), HasSubstr("EVT21"));
+  EXPECT_THAT(error_of("% evt 4.0\n% end\n"), HasSubstr("4.0"));
+  EXPECT_THAT(error_of("% Data file containing CD events.\n% Version 2\n"), HasSubstr("DAT"));
+  EXPECT_THAT(error_of("% serial_number 5\n% end\n"), HasSubstr("no format"));
+}
+
+TEST(PropheseeHeader, WithoutEndTheWordsBeginAfterTheLastLine) {
+  // The second word begins like a header line, "% ", and a newline follows it.
+  const auto r = read_all(with_words<uint32_t>("% evt 2.0\n", {0x80000001u, 0x10012025u, 0x8000000Au}));
+  EXPECT_EQ(r.events.size(), 1u);
+  const auto chance = read_all(with_words<uint16_t>("% evt 3.0\n", {0x2025, 0x8001, 0x200A, 0x2001}));
+  EXPECT_EQ(chance.events.size(), 2u) << "0x2025 is not the beginning of another header line";
+}
+
+TEST(PropheseeHeader, AnEndlessLineIsAnErrorAndIsNotBuffered) {
+  uint64_t served = 0;
+  const auto endless = [&served](std::span<uint8_t> out) -> Result<size_t> {
+    if (served > (uint64_t{1} << 30)) return size_t{0};
+    std::fill(out.begin(), out.end(), uint8_t{'a'});
+    if (served == 0) out[0] = '%', out[1] = ' ';
+    served += out.size();
+    return out.size();
+  };
+  EXPECT_THAT(read_all(ByteReader(endless, 0)).error, HasSubstr("header line"));
+  EXPECT_LE(served, ByteReader::kCapacity);
+}
+
+TEST(Open, FileAndOptionMustAgree) {
+  EXPECT_EQ(sensor_of("% evt 2.0\n% end\n", {SensorSize{304, 240}}), (SensorSize{304, 240}));
+  EXPECT_EQ(sensor_of("% evt 2.0\n% geometry 304x240\n% end\n", {SensorSize{304, 240}}),
+            (SensorSize{304, 240}));
+  EXPECT_THAT(error_of("% evt 2.0\n% system_ID 21\n% end\n", {SensorSize{304, 240}}),
+              AllOf(HasSubstr("640x480"), HasSubstr("304x240")));
+  EXPECT_THAT(error_of("% evt 2.0\n% end\n", {SensorSize{0, 240}}), HasSubstr("0x240"));
+  EXPECT_THAT(read_all(bytes_of("240 180\n0.1 1 1 1\n"), {SensorSize{304, 240}}).error,
+              AllOf(HasSubstr("240x180"), HasSubstr("304x240")));
+}
+
+TEST(Open, NamesWhatItCannotRead) {
+  const auto error = [](std::string_view start) { return read_all(bytes_of(start)).error; };
+  EXPECT_THAT(error(std::string_view("PK\x03\x04\x14\0\0\0", 8)), HasSubstr("zip archive: unpack it first"));
+  EXPECT_THAT(error("#!AER-DAT4.0\r\n"), HasSubstr("AEDAT4 is not supported yet"));
+  EXPECT_THAT(error("#!AER-DAT2.0\r\n"), HasSubstr("AEDAT"));
+  EXPECT_THAT(error("\x89HDF\r\n\x1a\n"), HasSubstr("HDF5"));
+  EXPECT_THAT(error("\x89PNG\r\n\x1a\n"), HasSubstr("PNG"));
+  EXPECT_THAT(error("Event Stream"), HasSubstr("Event Stream"));
+  EXPECT_THAT(error(""), HasSubstr("empty"));
+  const std::string what = error("what is this?");
+  EXPECT_THAT(what, AllOf(HasSubstr("test.raw"), HasSubstr("not recognised"), HasSubstr("EVT2, EVT3"),
+                          HasSubstr("t x y p")));
+  EXPECT_THAT(what, Not(HasSubstr("\n")));
+}
+
+TEST(Open, AMissingFileOrAFolderIsAnIoError) {
+  const auto missing = open_events("/nonexistent/events.raw");
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().code, ErrorCode::io);
+  EXPECT_THAT(missing.error().message, HasSubstr("/nonexistent/events.raw"));
+  const auto folder = open_events("/");
+  ASSERT_FALSE(folder.ok());
+  EXPECT_EQ(folder.error().code, ErrorCode::io);
+}
+
+TEST(Open, RequireSensorAsksForTheOption) {
+  const Bytes without = evt2_file({});
+  const Bytes with = evt2_file({}, "% geometry 640x480\n");
+  const auto unknown = open_input(ByteReader::over(without), "a.raw");
+  const auto known = open_input(ByteReader::over(with), "a.raw");
+  EXPECT_THAT(require_sensor(**unknown, "a.raw").error().message,
+              AllOf(HasSubstr("a.raw"), HasSubstr("--geometry WxH")));
+  EXPECT_EQ(*require_sensor(**known, "a.raw"), (SensorSize{640, 480}));
+}
+
+TEST(Open, FilesSayHowFarTheyAreRead) {
+  const TemporaryFile file(evt2_file({0x80000000u, 0x10000000u, 0x10000001u}));
+  auto source = open_events(file.path());
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_EQ((*source)->bytes_total(), file.content().size());
+  std::vector<Event> one(1);
+  EXPECT_EQ(*(*source)->read(one), 1u);
+  EXPECT_EQ((*source)->bytes_read(), file.content().size() - 4);
+  EXPECT_EQ(*(*source)->read(one), 1u);
+  EXPECT_EQ(*(*source)->read(one), 0u);
+  EXPECT_EQ(*(*source)->read(one), 0u) << "the end stays the end";
+  EXPECT_EQ((*source)->bytes_read(), file.content().size());
+}
+
+TEST(Open, AReadErrorComesAfterTheEventsBeforeIt) {
+  const Bytes bytes = evt2_file({0x80000000u, 0x10000000u, 0x10000001u});
+  bool served = false;
+  const auto failing = [&](std::span<uint8_t> out) -> Result<size_t> {
+    if (served) return Error{ErrorCode::io, "cannot read: broken"};
+    served = true;
+    std::copy(bytes.begin(), bytes.end(), out.begin());
+    return bytes.size();
+  };
+  const auto r = read_all(ByteReader(failing, 0));
+  EXPECT_EQ(r.events.size(), 2u);
+  EXPECT_THAT(r.error, AllOf(HasSubstr("test.raw"), HasSubstr("broken")));
+}
+
+// Feeds bytes to standard input through a pipe, and gives back the old standard input.
+class PipedStandardInput {
+ public:
+  explicit PipedStandardInput(Bytes bytes) : saved_(dup(STDIN_FILENO)) {
+    int ends[2];
+    if (pipe(ends) != 0) ADD_FAILURE() << "no pipe";
+    dup2(ends[0], STDIN_FILENO);
+    close(ends[0]);
+    writer_ = std::thread([fd = ends[1], content = std::move(bytes)] {
+      for (size_t at = 0; at < content.size();) {
+        const ssize_t count = write(fd, content.data() + at, std::min<size_t>(content.size() - at, 1000));
+        if (count <= 0) break;
+        at += static_cast<size_t>(count);
+      }
+      close(fd);
+    });
+  }
+  ~PipedStandardInput() {
+    writer_.join();
+    dup2(saved_, STDIN_FILENO);
+    close(saved_);
+  }
+
+ private:
+  int saved_;
+  std::thread writer_;
+};
+
+TEST(Open, ReadsStandardInputFromAPipe) {
+  std::string content = "240 180\n";
+  for (int i = 0; i < 50'000; ++i) content += "0.5 " + std::to_string(i % 240) + " 7 1\n";
+  const PipedStandardInput piped(bytes_of(content));
+  auto source = open_events("-");
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  EXPECT_EQ((*source)->bytes_total(), 0u);
+  const auto r = read_all(*std::move(source), 777);
+  EXPECT_EQ(r.events.size(), 50'000u);
+  EXPECT_EQ(r.events.back(), (Event{500'000, 49'999 % 240, 7, 1}));
+}
+
+TEST(Open, ALivePipeIsNotHeldBack) {
+  const TemporaryFile file;
+  ASSERT_EQ(mkfifo(file.path().c_str(), 0600), 0);
+  const Bytes first = evt2_file({0x80000000u, 0x10000000u});
+  // The writing end stays open all the time, so a reader that waits for more than is there hangs.
+  std::thread writer;
+  int fd = -1;
+  writer = std::thread([&] {
+    fd = open(file.path().c_str(), O_WRONLY);
+    EXPECT_EQ(write(fd, first.data(), first.size()), static_cast<ssize_t>(first.size()));
+  });
+  auto source = open_events(file.path());
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  writer.join();
+  std::vector<Event> events(100);
+  EXPECT_EQ(*(*source)->read(events), 1u);
+  close(fd);
+  EXPECT_EQ(*(*source)->read(events), 0u);
+}
+
+}  // namespace
+}  // namespace scarf

@@ -1,0 +1,89 @@
+// Known answers of real recordings, found through the environment variable SCARF_DATA_DIR.
+#include <cstdlib>
+
+#include "io_test_helpers.h"
+#include "scarf/digest.h"
+
+namespace scarf {
+namespace {
+
+struct Known {
+  const char* path;
+  const char* format;
+  SensorSize sensor;
+  size_t events;
+  size_t on;
+  Event first;
+  Event last;
+  const char* digest;
+};
+
+class Recordings : public ::testing::TestWithParam<Known> {};
+
+TEST_P(Recordings, AreReadAsKnown) {
+  const char* const folder = std::getenv("SCARF_DATA_DIR");
+  if (!folder) GTEST_SKIP() << "SCARF_DATA_DIR is not set";
+  const Known& known = GetParam();
+  for (const size_t batch : {size_t{1}, size_t{1} << 20}) {
+    auto source = open_events(std::string(folder) + "/" + known.path);
+    ASSERT_TRUE(source.ok()) << source.error().message;
+    const auto r = read_all(*std::move(source), batch);
+    EXPECT_EQ(r.error, "");
+    EXPECT_EQ(r.format, known.format);
+    EXPECT_EQ(r.sensor, known.sensor);
+    ASSERT_EQ(r.events.size(), known.events);
+    EXPECT_EQ(r.events.front(), known.first);
+    EXPECT_EQ(r.events.back(), known.last);
+    size_t on = 0;
+    EventDigest digest;
+    for (const Event& e : r.events) {
+      on += e.p;
+      digest.add(e);
+    }
+    EXPECT_EQ(on, known.on);
+    EXPECT_EQ(digest.hex(), known.digest);
+    EXPECT_EQ(r.report.events, known.events);
+    EXPECT_EQ(r.report.outside + r.report.back_steps + r.report.unknown_words + r.report.truncated_bytes, 0u);
+  }
+}
+
+TEST_P(Recordings, ComeBackFromEveryWriter) {
+  const char* const folder = std::getenv("SCARF_DATA_DIR");
+  if (!folder) GTEST_SKIP() << "SCARF_DATA_DIR is not set";
+  auto source = open_events(std::string(folder) + "/" + GetParam().path);
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  const auto original = read_all(*std::move(source), 1 << 16);
+  for (const WriteFormat format : {WriteFormat::evt2, WriteFormat::evt3, WriteFormat::text}) {
+    const TemporaryFile file;
+    auto sink = create_events(file.path(), format, GetParam().sensor);
+    ASSERT_TRUE(sink.ok()) << sink.error().message;
+    ASSERT_TRUE((*sink)->write(original.events).ok());
+    ASSERT_TRUE((*sink)->finish().ok());
+    auto written = open_events(file.path());
+    ASSERT_TRUE(written.ok()) << written.error().message;
+    EXPECT_TRUE(read_all(*std::move(written), 1 << 16).events == original.events);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Raw, Recordings,
+    ::testing::Values(Known{"raw/hd_evt3_driving.raw",
+                            "EVT3",
+                            {1280, 720},
+                            219'596,
+                            115'532,
+                            {11'718'656, 874, 200, 0},
+                            {11'727'457, 1218, 572, 1},
+                            "9bba5ca48301878102200069a89413a3240eaae3ff599d217f1c1a84d13fe7ba"},
+                      Known{"raw/vga_evt2_sparks.raw",
+                            "EVT2",
+                            {640, 480},
+                            521'252,
+                            185'861,
+                            {913'716'224, 35, 443, 1},
+                            {913'812'095, 12, 471, 0},
+                            "58773c06cd3098d13e0f2781e1134449d2f01ed498d4975aabc2c4e5ec81d44b"}),
+    [](const auto& test) { return std::string(test.param.format); });
+
+}  // namespace
+}  // namespace scarf

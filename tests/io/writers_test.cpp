@@ -1,0 +1,190 @@
+#include <gmock/gmock.h>
+
+#include "io_test_helpers.h"
+
+namespace scarf {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr WriteFormat kFormats[] = {WriteFormat::evt2, WriteFormat::evt3, WriteFormat::text};
+
+std::string name_of(WriteFormat format) {
+  return format == WriteFormat::evt2 ? "EVT2" : format == WriteFormat::evt3 ? "EVT3" : "text";
+}
+
+// Writes in batches of `batch`; the message of the first error, or "".
+std::string write_all(const std::string& path, WriteFormat format, SensorSize sensor,
+                      std::span<const Event> events, size_t batch = 1 << 20) {
+  auto sink = create_events(path, format, sensor);
+  if (!sink) return sink.error().message;
+  for (size_t at = 0; at < events.size(); at += batch) {
+    const auto written = (*sink)->write(events.subspan(at, std::min(batch, events.size() - at)));
+    if (!written) return written.error().message;
+  }
+  const auto finished = (*sink)->finish();
+  return finished ? "" : finished.error().message;
+}
+
+void expect_round_trip(WriteFormat format, SensorSize sensor, const std::vector<Event>& events) {
+  SCOPED_TRACE(name_of(format));
+  const TemporaryFile file;
+  for (const size_t batch : {size_t{1} << 20, size_t{7}}) {
+    ASSERT_EQ(write_all(file.path(), format, sensor, events, batch), "");
+    const auto r = read_all(file.content());
+    EXPECT_EQ(r.error, "");
+    EXPECT_EQ(r.format, name_of(format));
+    EXPECT_EQ(r.sensor, sensor);
+    EXPECT_TRUE(r.events == events) << r.events.size() << " of " << events.size();
+    EXPECT_EQ(r.report.unknown_words + r.report.outside + r.report.truncated_bytes + r.report.back_steps, 0u);
+  }
+}
+
+// A stream with rows of neighbours, repeated pixels and gaps of up to `largest_gap` microseconds.
+std::vector<Event> random_stream(uint32_t seed, SensorSize sensor, int64_t t, int64_t largest_gap,
+                                 size_t count) {
+  std::mt19937_64 random(seed);
+  const auto below = [&](int64_t n) { return static_cast<int64_t>(random() % static_cast<uint64_t>(n)); };
+  std::vector<Event> events;
+  while (events.size() < count) {
+    if (below(3) == 0) t += below(10);
+    if (below(50) == 0) t += below(largest_gap);
+    const auto y = static_cast<uint16_t>(below(sensor.height));
+    const auto p = static_cast<uint8_t>(below(2));
+    int64_t x = below(sensor.width);
+    const int64_t run = below(3) == 0 ? 1 + below(60) : 1;
+    for (int64_t i = 0; i < run && x < sensor.width; ++i) {
+      events.push_back({t, static_cast<uint16_t>(x), y, below(20) == 0 ? static_cast<uint8_t>(1 - p) : p});
+      x += below(10) == 0 ? below(20) - 5 : 1 + below(2);
+      if (x < 0) x = 0;
+    }
+  }
+  return events;
+}
+
+TEST(Writers, RandomStreamsComeBackIdentical) {
+  for (const WriteFormat format : kFormats) {
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+      for (const SensorSize sensor : {SensorSize{1280, 720}, SensorSize{2048, 2048}, SensorSize{31, 5},
+                                      SensorSize{32, 1}, SensorSize{1, 1}, SensorSize{240, 180}}) {
+        expect_round_trip(format, sensor, random_stream(seed, sensor, seed * 1'000'003, 5000, 5000));
+      }
+    }
+  }
+}
+
+TEST(Writers, LongGapsAndLateStartsComeBackIdentical) {
+  for (const WriteFormat format : kFormats) {
+    const SensorSize sensor{640, 480};
+    for (const int64_t start :
+         {int64_t{0}, (int64_t{1} << 24) - 3, int64_t{913'716'224}, (int64_t{1} << 36) - 1'000'000}) {
+      expect_round_trip(format, sensor, random_stream(1, sensor, start, 4, 3000));
+    }
+    expect_round_trip(format, sensor, random_stream(2, sensor, 0, 60'000'000, 30'000));
+    std::vector<Event> events;
+    for (int64_t t = 0; t < int64_t{1} << 36; t = t * 2 + 1) events.push_back({t, 1, 2, 1});
+    expect_round_trip(format, sensor, events);
+  }
+  expect_round_trip(WriteFormat::evt2, {640, 480}, {{5, 1, 2, 1}, {(int64_t{1} << 46) - 1, 3, 4, 0}});
+}
+
+TEST(Writers, AnEmptyRecordingComesBackEmpty) {
+  for (const WriteFormat format : kFormats) expect_round_trip(format, {640, 480}, {});
+}
+
+TEST(Writers, TextHoldsEveryOrderAndNegativeTimes) {
+  const std::vector<Event> events = {{-1, 1, 2, 1}, {-1'000'001, 3, 4, 0}, {(int64_t{1} << 62) - 1, 5, 6, 1}};
+  const TemporaryFile file;
+  ASSERT_EQ(write_all(file.path(), WriteFormat::text, {16'384, 100}, events), "");
+  const Bytes content = file.content();
+  EXPECT_EQ(std::string(content.begin(), content.end()),
+            "16384 100\n-0.000001 1 2 1\n-1.000001 3 4 0\n4611686018427.387903 5 6 1\n");
+  EXPECT_EQ(read_all(content).events, events);
+}
+
+TEST(Writers, Evt2WordsAreThoseOfTheFormat) {
+  const TemporaryFile file;
+  ASSERT_EQ(
+      write_all(file.path(), WriteFormat::evt2, {640, 480}, std::vector<Event>{{65, 3, 2, 1}, {66, 4, 2, 0}}),
+      "");
+  EXPECT_EQ(file.content(),
+            with_words<uint32_t>("% evt 2.0\n% format EVT2;height=480;width=640\n% geometry 640x480\n% end\n",
+                                 {0x80000001u, 0x10401802u, 0x00802002u}));
+}
+
+TEST(Writers, Evt3UsesVectorsForRowsOfNeighbours) {
+  std::vector<Event> row;
+  for (uint16_t x = 100; x < 164; ++x) row.push_back({7, x, 9, 1});
+  const TemporaryFile file;
+  ASSERT_EQ(write_all(file.path(), WriteFormat::evt3, {640, 480}, row), "");
+  EXPECT_EQ(
+      file.content(),
+      with_words<uint16_t>("% evt 3.0\n% format EVT3;height=480;width=640\n% geometry 640x480\n% end\n",
+                           {0x8000, 0x6007, 0x0009, 0x3864, 0x4FFF, 0x4FFF, 0x50FF, 0x4FFF, 0x4FFF, 0x50FF}));
+}
+
+TEST(Writers, Evt3VectorsAtTheRightEdgeKeepThePolarityApart) {
+  // The base behind an OFF vector at the edge of 2048 pixels is 2048: not to be confused with pixel 0, ON.
+  std::vector<Event> events;
+  for (uint16_t x = 2016; x < 2048; ++x) events.push_back({0, x, 0, 0});
+  for (uint16_t x = 0; x < 32; ++x) events.push_back({0, x, 0, 1});
+  expect_round_trip(WriteFormat::evt3, {2048, 10}, events);
+}
+
+TEST(Writers, RefuseWhatTheFormatCannotHold) {
+  const SensorSize sensor{3000, 3000};
+  const struct {
+    Event event;
+    const char* reason;
+    bool text_holds_it;
+  } cases[] = {
+      {{99, 1, 1, 1}, "sort the events", true},
+      {{100, 2048, 0, 1}, "2047", true},
+      {{100, 0, 2048, 1}, "2047", true},
+      {{100, 3000, 0, 1}, "outside the sensor", false},
+      {{100, 0, 3000, 1}, "outside the sensor", false},
+      {{100, 0, 0, 2}, "polarity", false},
+      {{int64_t{1} << 46, 0, 0, 1}, "shift the times", true},
+      {{-1, 0, 0, 1}, "shift the times", true},
+      {{int64_t{1} << 62, 0, 0, 1}, "shift the times", false},
+      {{-(int64_t{1} << 62), 0, 0, 1}, "shift the times", false},
+  };
+  for (const WriteFormat format : kFormats) {
+    for (const auto& c : cases) {
+      const TemporaryFile file;
+      const std::string error =
+          write_all(file.path(), format, sensor, std::vector<Event>{{100, 5, 6, 1}, c.event});
+      if (format == WriteFormat::text && c.text_holds_it) {
+        EXPECT_EQ(error, "");
+      } else {
+        EXPECT_THAT(error, AllOf(HasSubstr(file.path()), HasSubstr("event 1 "), HasSubstr(c.reason),
+                                 HasSubstr(name_of(format))));
+      }
+    }
+  }
+  const TemporaryFile file;
+  EXPECT_THAT(
+      write_all(file.path(), WriteFormat::evt3, sensor, std::vector<Event>{{int64_t{1} << 36, 0, 0, 1}}),
+      HasSubstr("shift the times"));
+}
+
+TEST(Writers, CreationErrors) {
+  EXPECT_THAT(write_all("/nonexistent/a.raw", WriteFormat::evt2, {640, 480}, {}),
+              HasSubstr("/nonexistent/a.raw"));
+  const TemporaryFile file;
+  EXPECT_THAT(write_all(file.path(), WriteFormat::evt2, {0, 480}, {}), HasSubstr("0x480"));
+  EXPECT_FALSE(std::filesystem::exists(file.path()));
+  EXPECT_THAT(write_all("/dev/full", WriteFormat::text, {640, 480}, {}), HasSubstr("cannot write"));
+}
+
+TEST(Writers, AFinishedSinkRefusesMore) {
+  const TemporaryFile file;
+  auto sink = create_events(file.path(), WriteFormat::text, {640, 480});
+  ASSERT_TRUE((*sink)->finish().ok());
+  EXPECT_FALSE((*sink)->finish().ok());
+}
+
+}  // namespace
+}  // namespace scarf

@@ -1,0 +1,116 @@
+#include "scarf/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "shaders/layout.h"
+#include "tests/support/streams.h"
+
+namespace scarf {
+namespace {
+
+vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) {
+  vulkan::Limits limits;
+  limits.storage_range = 128u << 20;
+  limits.workgroups = 65'535;
+  limits.workgroup_size = 1024;
+  limits.subgroup_size = subgroup_size;
+  limits.loop_trips = loop_trips;
+  limits.cpu = cpu;
+  return limits;
+}
+
+// The largest number of trips that one invocation of the count or place stage takes, the entry of its loop
+// included.
+uint64_t walk_trips(const Plan& plan, const Chunking& chunking) {
+  return uint64_t{chunking.chunk_events} * trips_per_event(plan.lane_columns, plan.lane_rows) + 1;
+}
+
+TEST(Plan, StaysWithinTheLoopBudgetForEveryGeometryAndBatch) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    Geometry g = test::random_geometry({64 + trial, 48 + trial}, random);
+    if (trial % 3 == 0) {
+      // As many patches per event as is legal.
+      g.x = {g.x.size, 1, 0, g.x.size, 63, 64};
+      g.y = {g.y.size, 1, 0, g.y.size, 63, 64};
+    }
+    for (uint32_t subgroup : {1u, 4u, 8u, 16u, 32u, 64u, 128u}) {
+      for (uint32_t chunk_events : {0u, 1u, 500u, 32'768u}) {
+        const vulkan::Limits limits = limits_of(subgroup, 60'000, true);
+        GpuOptions options;
+        options.chunk_events = chunk_events;
+        const auto plan = make_plan(g, limits, options);
+        ASSERT_TRUE(plan) << plan.error().message;
+        EXPECT_LE(plan->workgroup_size(), 64u);
+        EXPECT_LE(plan->table_words() * 4, limits.storage_range);
+        EXPECT_LE(2 * (uint64_t{plan->max_chunks} + 1), limits.loop_trips);
+        for (uint32_t events : {1u, plan->max_chunk_events, plan->max_chunk_events + 1,
+                                plan->submission_events - 1, plan->submission_events}) {
+          if (events == 0 || events > plan->submission_events) continue;
+          const Chunking chunking = plan->cut(events);
+          ASSERT_LE(walk_trips(*plan, chunking), limits.loop_trips);
+          ASSERT_LE(chunking.chunk_events, layout::kMaxChunkEvents);
+          ASSERT_LE(chunking.chunks, plan->max_chunks);
+          ASSERT_GE(uint64_t{chunking.chunk_events} * chunking.chunks, events);
+          ASSERT_LT(uint64_t{chunking.chunk_events} * (chunking.chunks - 1), events);
+        }
+      }
+    }
+  }
+}
+
+TEST(Plan, EveryPatchOfAnEventHasOneLane) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Geometry g = test::random_geometry({100, 60}, random);
+    for (uint32_t subgroup : {4u, 8u, 32u}) {
+      const Plan plan = *make_plan(g, limits_of(subgroup, UINT32_MAX, false), {});
+      for (int32_t x = 0; x < g.x.size; ++x) {
+        const PatchRange range = g.x.patches_holding(x);
+        EXPECT_LE(range.last - range.first + 1, static_cast<int32_t>(plan.team_x * plan.lane_columns));
+      }
+      for (int32_t y = 0; y < g.y.size; ++y) {
+        const PatchRange range = g.y.patches_holding(y);
+        EXPECT_LE(range.last - range.first + 1, static_cast<int32_t>(plan.team_y * plan.lane_rows));
+      }
+    }
+  }
+}
+
+TEST(Plan, RefusesOptionsOutOfRangeByName) {
+  const Geometry g = *make_geometry(Preset::paper, {64, 48});
+  const auto message = [&](GpuOptions options) {
+    const auto plan = make_plan(g, limits_of(8, 60'000, true), options);
+    return plan ? std::string("accepted") : plan.error().message;
+  };
+  GpuOptions slots;
+  slots.staging_slots = 0;
+  EXPECT_EQ(message(slots), "staging_slots is 0, legal is 1 to 16");
+  GpuOptions chunk;
+  chunk.chunk_events = 32'769;
+  EXPECT_EQ(message(chunk), "chunk_events is 32769, legal is 0 to 32768");
+  GpuOptions submission;
+  submission.submission_events = (1u << 24) + 1;
+  EXPECT_EQ(message(submission), "submission_events is 16777217, legal is 0 to 16777216");
+}
+
+TEST(Plan, RefusesAGridBeyondTheDeviceByName) {
+  const Geometry g = *checked_geometry({{16'384, 4, 0, 4096, 0, 0}, {16'384, 4, 0, 4096, 0, 0}, 1});
+  const auto plan = make_plan(g, limits_of(8, 60'000, true), {});
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().code, ErrorCode::out_of_memory);
+  EXPECT_NE(plan.error().message.find("16777216 patches"), std::string::npos);
+}
+
+TEST(PatchRanges, MarkPixelsThatNoFieldHolds) {
+  // Two patches of 2 pixels at 4..7 on an axis of 10 pixels, fields one pixel wider.
+  const Geometry g = *checked_geometry({{10, 2, 4, 2, 1, 1}, {1, 1, 0, 1, 0, 0}, 1});
+  const std::vector<uint32_t> expected = {1, 1, 1, 0, 0, 1u << 16, 1u << 16, 1 | 1u << 16, 1 | 1u << 16,
+                                          1, 1, 0, 1};
+  EXPECT_EQ(patch_ranges(g), expected);
+}
+
+}  // namespace
+}  // namespace scarf

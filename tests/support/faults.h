@@ -1,0 +1,65 @@
+// Makes the n-th Vulkan call that can fail, fail.
+#pragma once
+
+#include "vulkan/table.h"
+
+namespace scarf::test {
+
+/// Counts the calls that return a VkResult; the one numbered `fail_at` (from 1) returns `result` instead. A
+/// lost device stays lost: every later call fails too, but for those that destroy.
+struct Faults {
+  static inline int calls = 0;
+  static inline int fail_at = 0;
+  static inline VkResult result = VK_SUCCESS;
+  static inline bool lost = false;
+
+  static void arm(int n, VkResult r) {
+    calls = 0;
+    fail_at = n;
+    result = r;
+    lost = false;
+  }
+  static VkResult next() {
+    ++calls;
+    if (calls == fail_at) {
+      lost = result == VK_ERROR_DEVICE_LOST;
+      return result;
+    }
+    return lost ? VK_ERROR_DEVICE_LOST : VK_SUCCESS;
+  }
+};
+
+template <auto Member>
+struct Faulty;
+template <class... Arguments, VkResult (VKAPI_PTR* vulkan::Table::*Member)(Arguments...)>
+struct Faulty<Member> {
+  static inline VkResult(VKAPI_PTR* real)(Arguments...) = nullptr;
+  static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
+    const VkResult injected = Faults::next();
+    return injected != VK_SUCCESS ? injected : real(arguments...);
+  }
+  static void install(vulkan::Table& table) {
+    if (table.*Member == nullptr || table.*Member == call) return;
+    real = table.*Member;
+    table.*Member = call;
+  }
+};
+template <class... Arguments, void (VKAPI_PTR* vulkan::Table::*Member)(Arguments...)>
+struct Faulty<Member> {
+  static void install(vulkan::Table&) {}
+};
+template <class... Arguments, PFN_vkVoidFunction (VKAPI_PTR* vulkan::Table::*Member)(Arguments...)>
+struct Faulty<Member> {
+  static void install(vulkan::Table&) {}
+};
+
+/// For vulkan::Device::create.
+inline void install_faults(vulkan::Table& table) {
+#define SCARF_TEST_INSTALL(name) Faulty<&vulkan::Table::name>::install(table);
+  SCARF_VK_GLOBAL_CALLS(SCARF_TEST_INSTALL)
+  SCARF_VK_INSTANCE_CALLS(SCARF_TEST_INSTALL)
+  SCARF_VK_DEVICE_CALLS(SCARF_TEST_INSTALL)
+#undef SCARF_TEST_INSTALL
+}
+
+}  // namespace scarf::test
