@@ -101,8 +101,11 @@ class Stream : public std::enable_shared_from_this<Stream> {
       : context_(std::move(context)), device_(context_->vulkan()), geometry_(geometry), options_(options) {}
 
   ~Stream() {
-    // Nothing may be destroyed while the device uses it. A lost device uses nothing.
-    (void)device_.compute().wait(last_submission_);
+    // Nothing may be destroyed while the device uses it. A lost device uses nothing; after any other failure
+    // to wait, waiting for everything is tried.
+    const bool idle =
+        device_.compute().wait(last_submission_).ok() && device_.transfer().wait(last_transfer_).ok();
+    if (!idle) device_.calls().DeviceWaitIdle(device_.handle());
   }
 
   Result<void> start(const Levels& levels) {
@@ -410,7 +413,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
       t.copy(s.host, offset, s.device, offset, bytes);
       if (auto r = t.submit(); !r) return r;
       wait_queue = &device_.transfer();
-      wait_value = t.value();
+      wait_value = last_transfer_ = t.value();
     }
     if (auto r = c.begin(); !r) return r;
     if (upload_ == Upload::staged) {
@@ -548,7 +551,8 @@ class Stream : public std::enable_shared_from_this<Stream> {
   std::optional<int64_t> t_first_;
   std::optional<PolarityMode> rendered_mode_;  // what the count image on the device shows
   std::optional<Error> failure_;
-  uint64_t last_submission_ = 0;
+  uint64_t last_submission_ = 0;  // places in the timelines of the two queues
+  uint64_t last_transfer_ = 0;
   uint64_t query_bytes_ = 0;
   Pool<PushCommands> push_pool_;
   Pool<ImageQuery> image_pool_;

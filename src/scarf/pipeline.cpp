@@ -45,23 +45,6 @@ Result<Buffer> host_buffer(const vulkan::Device& device, const char* name, std::
   return buffer;
 }
 
-layout::PatchPush patch_push(const Geometry& g, uint32_t first, uint32_t count) {
-  layout::PatchPush push{};
-  push.first_patch = first;
-  push.patches = count;
-  push.grid_x = g.x.grid;
-  push.capacity = g.capacity;
-  push.field_x = g.x.field_begin(0);
-  push.field_y = g.y.field_begin(0);
-  push.margin_lo_x = g.x.margin_lo;
-  push.margin_lo_y = g.y.margin_lo;
-  push.cell_x = g.x.cell;
-  push.cell_y = g.y.cell;
-  push.width = g.x.size;
-  push.height = g.y.size;
-  return push;
-}
-
 uint32_t image_mode(PolarityMode mode) {
   switch (mode) {
     case PolarityMode::merged:
@@ -249,8 +232,26 @@ void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, 
   record_place(commands, kernels, push);
 }
 
+layout::PatchPush ScarfPipeline::patch_push(uint32_t first, uint32_t count) const {
+  const Geometry& g = geometry_;
+  layout::PatchPush push{};
+  push.first_patch = first;
+  push.patches = count;
+  push.grid_x = g.x.grid;
+  push.capacity = g.capacity;
+  push.field_x = g.x.field_begin(0);
+  push.field_y = g.y.field_begin(0);
+  push.margin_lo_x = g.x.margin_lo;
+  push.margin_lo_y = g.y.margin_lo;
+  push.cell_x = g.x.cell;
+  push.cell_y = g.y.cell;
+  push.width = g.x.size;
+  push.height = g.y.size;
+  return push;
+}
+
 void ScarfPipeline::record_render(Commands& commands, PolarityMode mode, bool all) const {
-  layout::PatchPush push = patch_push(geometry_, 0, plan_.patches);
+  layout::PatchPush push = patch_push(0, plan_.patches);
   push.mode = image_mode(mode);
   push.render_all = all ? 1 : 0;
   for (uint32_t begin = 0; begin < push.capacity; begin += layout::kSlotsPerDispatch) {
@@ -278,7 +279,7 @@ void ScarfPipeline::record_tone_float(Commands& commands, uint32_t planes) const
 
 void ScarfPipeline::record_extract(Commands& commands, const ExtractTarget& target, uint32_t first,
                                    uint32_t count, bool active_only, int64_t t_first) const {
-  layout::PatchPush push = patch_push(geometry_, first, count);
+  layout::PatchPush push = patch_push(first, count);
   push.mode = active_only ? 1 : 0;
   push.half_events = static_cast<uint32_t>(half_events());
   push.t_first_low = low_word(t_first);

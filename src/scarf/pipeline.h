@@ -42,7 +42,8 @@ class ScarfPipeline {
   /// count, scan, place: events first .. first+count-1 of the bound buffer; at most Plan::submission_events.
   void record_push(vulkan::Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
                    int64_t t_first) const;
-  /// The stages of record_push one by one, for tests.
+  /// The stages of record_push one by one, and what render and extract are given, for tests.
+  layout::PatchPush patch_push(uint32_t first, uint32_t count) const;
   layout::BatchPush batch_push(uint32_t first, uint32_t count, int64_t t_first) const;
   void record_count(vulkan::Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const;
   void record_scan(vulkan::Commands& commands, const layout::BatchPush& push) const;

@@ -1,1 +1,131 @@
+// Every Vulkan call is made to fail once: the error is the right one, nothing is lost silently, nothing
+// crashes.
+#include <gtest/gtest.h>
 
+#include "scarf/reference.h"
+#include "tests/support/faults.h"
+#include "tests/support/same.h"
+#include "tests/support/streams.h"
+#include "vulkan/device.h"
+
+namespace scarf {
+namespace {
+
+using test::Faults;
+
+const Geometry kGeometry = *make_geometry(Preset::paper, {40, 30});
+const std::vector<Event> kEvents = test::make_stream(test::Spread::uniform, {40, 30}, 3000, 1);
+
+struct Outcome {
+  std::optional<Error> error;  // the first one
+  std::optional<Snapshot> state;
+  std::optional<Image<uint8_t>> image;
+  std::optional<std::vector<Event>> events;
+};
+
+// Everything that a user does, up to the first failure; then the rest is tried all the same, and must not
+// crash.
+Outcome use_everything(DeviceOptions::Upload upload) {
+  Outcome outcome;
+  const auto note = [&](const auto& result) {
+    if (!result && !outcome.error) outcome.error = result.error();
+    return result.ok();
+  };
+  DeviceOptions options;
+  options.upload = upload;
+  options.cache_folder = "-";
+  auto device = vulkan::Device::create(options, test::install_faults);
+  if (!note(device)) return outcome;
+  Faults::stop_device = [handle = (*device)->handle()] {
+    test::Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);
+  };
+  auto context = std::make_shared<GpuContext>(std::move(*device));
+  GpuOptions gpu;
+  gpu.submission_events = 1000;
+  auto scarf = make_gpu_scarf(context, kGeometry, kDefaultAccumulation, gpu);
+  if (!note(scarf)) return outcome;
+  note((*scarf)->push(kEvents));
+  auto image = (*scarf)->u8_image().wait();
+  note(image);
+  auto events = (*scarf)->active_events().wait();
+  note(events);
+  auto state = (*scarf)->snapshot().wait();
+  note(state);
+  note((*scarf)->finish());
+  Faults::stop_device = nullptr;
+  if (image) outcome.image = *image;
+  if (events) outcome.events = *events;
+  if (state) outcome.state = *state;
+  return outcome;
+}
+
+class Fault : public testing::TestWithParam<std::pair<VkResult, DeviceOptions::Upload>> {
+ protected:
+  void TearDown() override { Faults::arm(0, VK_SUCCESS); }
+};
+
+TEST_P(Fault, OfEachCallIsReportedAndLosesNothingSilently) {
+  const auto [result, upload] = GetParam();
+  Faults::arm(0, VK_SUCCESS);
+  const Outcome whole = use_everything(upload);
+  ASSERT_FALSE(whole.error) << whole.error->message;
+  const int calls = Faults::calls;
+  ASSERT_GT(calls, 80);
+
+  auto reference = *make_reference_scarf(kGeometry);
+  ASSERT_TRUE(reference->push(kEvents));
+  const Snapshot expected = test::value_of(reference->snapshot());
+  EXPECT_EQ(whole.state->slots, expected.slots);
+
+  int unreported = 0;
+  for (int n = 1; n <= calls; ++n) {
+    SCOPED_TRACE(n);
+    Faults::arm(n, result);
+    const Outcome outcome = use_everything(upload);
+    if (outcome.error) {
+      const ErrorCode wanted =
+          result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory;
+      EXPECT_EQ(outcome.error->code, wanted) << outcome.error->message;
+      EXPECT_NE(outcome.error->message.find("vk"), std::string::npos) << outcome.error->message;
+    } else {
+      ++unreported;
+    }
+    // Whatever was handed out is whole.
+    if (outcome.state) {
+      EXPECT_EQ(outcome.state->totals, expected.totals);
+      EXPECT_EQ(outcome.state->slots, expected.slots);
+    }
+    if (outcome.image) {
+      EXPECT_EQ(*outcome.image, *whole.image);
+    }
+    if (outcome.events) {
+      EXPECT_EQ(*outcome.events, *whole.events);
+    }
+  }
+  // Only timestamps, a poll that is repeated, and the wait for idleness at the end may fail unnoticed.
+  EXPECT_LE(unreported, calls / 10);
+}
+
+std::string fault_name(const testing::TestParamInfo<std::pair<VkResult, DeviceOptions::Upload>>& info) {
+  const std::string upload =
+      info.param.second == DeviceOptions::Upload::automatic ? "Direct" : "TransferQueue";
+  switch (info.param.first) {
+    case VK_ERROR_DEVICE_LOST:
+      return "DeviceLost" + upload;
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "OutOfDeviceMemory" + upload;
+    default:
+      return "OutOfHostMemory" + upload;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Results, Fault,
+    testing::Values(std::pair(VK_ERROR_DEVICE_LOST, DeviceOptions::Upload::automatic),
+                    std::pair(VK_ERROR_DEVICE_LOST, DeviceOptions::Upload::transfer_queue),
+                    std::pair(VK_ERROR_OUT_OF_DEVICE_MEMORY, DeviceOptions::Upload::automatic),
+                    std::pair(VK_ERROR_OUT_OF_HOST_MEMORY, DeviceOptions::Upload::transfer_queue)),
+    fault_name);
+
+}  // namespace
+}  // namespace scarf

@@ -1,6 +1,8 @@
 // Makes the n-th Vulkan call that can fail, fail.
 #pragma once
 
+#include <functional>
+
 #include "vulkan/table.h"
 
 namespace scarf::test {
@@ -12,17 +14,20 @@ struct Faults {
   static inline int fail_at = 0;
   static inline VkResult result = VK_SUCCESS;
   static inline bool lost = false;
+  static inline std::function<void()> stop_device;  // a lost device does no more work; set once there is one
 
   static void arm(int n, VkResult r) {
     calls = 0;
     fail_at = n;
     result = r;
     lost = false;
+    stop_device = nullptr;
   }
   static VkResult next() {
     ++calls;
     if (calls == fail_at) {
       lost = result == VK_ERROR_DEVICE_LOST;
+      if (lost && stop_device) stop_device();
       return result;
     }
     return lost ? VK_ERROR_DEVICE_LOST : VK_SUCCESS;
