@@ -5,31 +5,26 @@
 #include "layout.h"
 #include "team.glsl"
 
-layout(std430, binding = 0) readonly buffer Events { uvec4 events[]; };  // t low, t high, x | y << 16, p
-layout(std430, binding = 1) readonly buffer Ranges { uint ranges[]; };   // first | last << 16 per column, then row
-layout(std430, binding = 2) buffer TableBuffer { uint table[]; };        // zeros before
-layout(push_constant) uniform Push { BatchPush push; };
-
 void main() {
   const Lane lane = this_lane();
   if (lane.chunk >= push.chunks) return;
-  const uint base = lane.chunk * push.table_stride;
-  const uint unused_entry = base + push.table_stride - kTeamX * kTeamY + lane.index;
   const uint begin = lane.chunk * push.chunk_events;
   const uint end = min(begin + push.chunk_events, push.events);
-  // Trips: see chunk_loop_trips() in src/scarf/plan.cpp.
-  for (uint e = begin; e < end; ++e) {
-    const uint xy = events[push.first_event + e].z;
-    const uint columns = ranges[min(xy & 0xFFFF, push.width)];
-    const uint rows = ranges[push.width + 1 + min(xy >> 16, push.height)];
-    const uint first_i = first_owned(columns & 0xFFFF, lane.x, kTeamX);
-    const uint first_j = first_owned(rows & 0xFFFF, lane.y, kTeamY);
-    for (uint r = 0; r < kLaneRows; ++r) {
-      const uint j = first_j + r * kTeamY;
-      for (uint c = 0; c < kLaneColumns; ++c) {
-        const uint i = first_i + c * kTeamX;
-        const bool hit = i <= columns >> 16 && j <= rows >> 16;
-        table[hit ? base + j * push.grid_x + i : unused_entry] += 1;
+  // Trips: see trips_per_block() in src/scarf/plan.cpp.
+  for (uint block = begin; block < end; block += kTeamLanes) {
+    const Field own = field_of(position_of(block + lane.index, end));
+    for (uint k = 0; k < kTeamLanes; ++k) {
+      const uint columns = subgroupShuffle(own.columns, lane.team + k);
+      const uint rows = subgroupShuffle(own.rows, lane.team + k);
+      const uint first_i = first_owned(columns & 0xFFFF, lane.x, kTeamX);
+      const uint first_j = first_owned(rows & 0xFFFF, lane.y, kTeamY);
+      for (uint r = 0; r < kLaneRows; ++r) {
+        const uint j = first_j + r * kTeamY;
+        for (uint c = 0; c < kLaneColumns; ++c) {
+          const uint i = first_i + c * kTeamX;
+          const bool hit = i <= columns >> 16 && j <= rows >> 16;
+          table[hit ? lane.base + j * push.grid_x + i : lane.unused_entry] += 1;
+        }
       }
     }
   }

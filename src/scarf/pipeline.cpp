@@ -119,7 +119,8 @@ Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
   };
   for (const auto& w : wanted) {
     const auto push_bytes = static_cast<uint32_t>(w.push_bytes);
-    auto kernel = Kernel::create(device, w.name, w.spirv, w.bindings, push_bytes, w.constants);
+    auto kernel = Kernel::create(device, w.name, w.spirv, w.bindings, push_bytes, w.constants,
+                                 /*whole_subgroups=*/!w.constants.empty());
     if (auto r = assign(w.kernel, std::move(kernel)); !r) return r;
   }
   const struct {
@@ -202,7 +203,8 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
   return push;
 }
 
-void ScarfPipeline::record_count(Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const {
+void ScarfPipeline::record_count(Commands& commands, const PushKernels& kernels,
+                                 const layout::BatchPush& push) const {
   commands.fill(table_, uint64_t{push.chunks} * plan_.table_stride * kWord, 0);
   commands.barrier();
   commands.mark("clear");
@@ -218,14 +220,15 @@ void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& pus
   commands.mark("scan");
 }
 
-void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const {
+void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels,
+                                 const layout::BatchPush& push) const {
   commands.dispatch(kernels.place, uint64_t{push.chunks} * plan_.team_lanes(), plan_.workgroup_size(), push);
   commands.barrier();
   commands.mark("place");
 }
 
-void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
-                                int64_t t_first) const {
+void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, uint32_t first,
+                                uint32_t count, int64_t t_first) const {
   const layout::BatchPush push = batch_push(first, count, t_first);
   record_count(commands, kernels, push);
   record_scan(commands, push);

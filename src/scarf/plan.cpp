@@ -41,10 +41,11 @@ Error illegal(std::string message) {
 
 }  // namespace
 
-uint32_t trips_per_event(uint32_t lane_columns, uint32_t lane_rows) {
-  // One for the event, then the loop over rows (and its entry), and for each row the loop over columns
-  // (likewise).
-  return 1 + (lane_rows + 1) + lane_rows * (lane_columns + 1);
+uint32_t trips_per_block(const Plan& plan) {
+  // A loop costs its trips and one for its entry: blocks of events, events, rows and columns of patches.
+  const uint32_t columns = plan.lane_columns + 1;
+  const uint32_t rows = plan.lane_rows * (1 + columns) + 1;
+  return 1 + plan.team_lanes() * (1 + rows) + 1;
 }
 
 Chunking Plan::cut(uint32_t events) const {
@@ -82,9 +83,10 @@ Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, c
   plan.lane_rows = ceil_div(rows, plan.team_y);
   plan.teams_per_workgroup = lanes / plan.team_lanes();
 
-  // 8: entries of the loop over the chunk itself, and the compiler's own.
-  const uint32_t budget = (limits.loop_trips - 8) / trips_per_event(plan.lane_columns, plan.lane_rows);
-  plan.max_chunk_events = std::min(layout::kMaxChunkEvents, budget);
+  // 8: the entry of the loop over blocks, and loops of the compiler itself.
+  const uint32_t blocks = (limits.loop_trips - 8) / trips_per_block(plan);
+  plan.max_chunk_events =
+      static_cast<uint32_t>(std::min<uint64_t>(layout::kMaxChunkEvents, uint64_t{blocks} * plan.team_lanes()));
   plan.table_stride = plan.patches + plan.team_lanes();
   const uint64_t table_bytes = std::min(limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range);
   const uint64_t chunks_that_fit = table_bytes / (uint64_t{plan.table_stride} * sizeof(uint32_t));

@@ -49,8 +49,9 @@ struct Plan {
   Chunking cut(uint32_t events) const;
 };
 
-/// Trips, loop entries included, that a count or place invocation takes per event.
-uint32_t trips_per_event(uint32_t lane_columns, uint32_t lane_rows);
+/// Trips, loop entries included, that a count or place invocation takes per block of as many events as its team has
+/// lanes.
+uint32_t trips_per_block(const Plan& plan);
 
 /// Errors: illegal_parameter for options out of range; out_of_memory, by name, for a grid beyond the device.
 Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, const GpuOptions& options);

@@ -119,8 +119,11 @@ struct Candidate {
 Candidate describe(const Table& calls, VkPhysicalDevice device) {
   Candidate c;
   c.device = device;
+  VkPhysicalDeviceSubgroupSizeControlProperties control{};
+  control.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES;
   VkPhysicalDeviceSubgroupProperties subgroup{};
   subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  subgroup.pNext = &control;
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
   driver.pNext = &subgroup;
@@ -167,6 +170,10 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
     c.info.rejected = text("has Vulkan ", c.info.api_version, ", scarf needs 1.3: install a newer driver");
   } else if (!features.features.shaderInt64) {
     c.info.rejected = "has no 64-bit integers in shaders (shaderInt64)";
+  } else if (!(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT)) {
+    c.info.rejected = "has no subgroup shuffles in shaders";
+  } else if (!(control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT)) {
+    c.info.rejected = "cannot fix the subgroup size of compute shaders";
   } else if (!compute) {
     c.info.rejected = "has no compute queue";
   }
@@ -406,6 +413,8 @@ Result<void> Device::choose() {
   VkPhysicalDeviceVulkan13Features features13{};
   features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   features13.synchronization2 = VK_TRUE;
+  features13.subgroupSizeControl = VK_TRUE;
+  features13.computeFullSubgroups = VK_TRUE;
   features13.maintenance4 = VK_TRUE;  // workgroup sizes as specialization constants
   VkPhysicalDeviceVulkan12Features features12{};
   features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;

@@ -7,7 +7,8 @@
 namespace scarf::vulkan {
 
 Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<const uint32_t> spirv,
-                              uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants) {
+                              uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants,
+                              bool whole_subgroups) {
   const Table& calls = device.calls();
   Kernel k;
   k.device_ = &device;
@@ -55,10 +56,17 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
   for (uint32_t i = 0; i < constants.size(); ++i) entries[i] = {i, i * 4, 4};
   const VkSpecializationInfo specialization = {static_cast<uint32_t>(entries.size()), entries.data(),
                                                constants.size_bytes(), constants.data()};
+  VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO;
+  subgroup.requiredSubgroupSize = device.limits().subgroup_size;
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  if (whole_subgroups) {
+    info.stage.pNext = &subgroup;
+    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  }
   info.stage.module = module;
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;

@@ -22,9 +22,11 @@ class Kernel {
   }
   ~Kernel();
 
-  /// `constants` become specialization constants 0, 1, ...; the local size is the shader's business.
+  /// `constants` become specialization constants 0, 1, ... With `whole_subgroups` constant 0 is the local
+  /// size, a multiple of Limits::subgroup_size, and every subgroup has that size.
   static Result<Kernel> create(const Device& device, const char* name, std::span<const uint32_t> spirv,
-                               uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants);
+                               uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants,
+                               bool whole_subgroups = false);
 
   VkPipeline pipeline() const { return pipeline_; }
   VkPipelineLayout layout() const { return layout_; }

@@ -24,7 +24,8 @@ vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) 
 // The largest number of trips that one invocation of the count or place stage takes, the entry of its loop
 // included.
 uint64_t walk_trips(const Plan& plan, const Chunking& chunking) {
-  return uint64_t{chunking.chunk_events} * trips_per_event(plan.lane_columns, plan.lane_rows) + 1;
+  const uint64_t blocks = (chunking.chunk_events + plan.team_lanes() - 1) / plan.team_lanes();
+  return blocks * trips_per_block(plan) + 1;
 }
 
 TEST(Plan, StaysWithinTheLoopBudgetForEveryGeometryAndBatch) {

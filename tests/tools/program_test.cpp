@@ -1,0 +1,356 @@
+// The built program from outside: exit codes, one-line errors, what it prints and writes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iomanip>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "core/text.h"
+#include "scarf/digest.h"
+#include "scarf/gpu.h"
+#include "scarf/reference.h"
+#include "tests/tools/event_fixtures.h"
+#include "tests/tools/temporary_folder.h"
+
+namespace scarf::tools {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+namespace fs = std::filesystem;
+
+constexpr SensorSize kSensor{64, 48};
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+class Program : public testing::Test {
+ protected:
+  // Standard error must be empty or one line that begins with "scarf: ", in every run of every test.
+  Outcome run(const std::string& arguments) {
+    const std::string command =
+        std::string(SCARF_PROGRAM) + " " + arguments + " >" + path("out") + " 2>" + path("err");
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(path("out")),
+                    content_of(path("err"))};
+    if (!outcome.err.empty()) {
+      EXPECT_THAT(outcome.err, StartsWith("scarf: ")) << arguments;
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << "\n"
+                                                                             << outcome.err;
+      EXPECT_NE(outcome.exit_code, 0) << arguments;
+    }
+    return outcome;
+  }
+
+  std::string path(const std::string& name) const { return folder_.path(name); }
+
+  // A recording of random events, and its path.
+  std::string recording(size_t count = 20'000) {
+    events_ = random_events(count, kSensor);
+    auto sink = *create_events(path("recording.txt"), WriteFormat::text, kSensor);
+    EXPECT_TRUE(sink->write(events_).ok());
+    EXPECT_TRUE(sink->finish().ok());
+    return path("recording.txt");
+  }
+
+  // The reference's picture after the first n events of the recording.
+  cv::Mat reference_picture(size_t n, Preset preset = Preset::paper) const {
+    const auto scarf = *make_reference_scarf(*make_geometry(preset, kSensor));
+    EXPECT_TRUE(scarf->push(std::span(events_).first(n)).ok());
+    const Image<uint8_t> image = *scarf->u8_image().wait();
+    cv::Mat picture(image.height, image.width, CV_8UC1);
+    std::copy(image.pixels.begin(), image.pixels.end(), picture.data);
+    return picture;
+  }
+
+  void expect_picture(const std::string& file, const cv::Mat& expected) const {
+    const cv::Mat picture = cv::imread(file, cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(picture.type(), CV_8UC1) << file;
+    ASSERT_EQ(picture.size(), expected.size()) << file;
+    EXPECT_EQ(cv::countNonZero(picture != expected), 0) << file;
+  }
+
+  std::vector<Event> events_;
+
+ private:
+  const TemporaryFolder folder_;
+};
+
+TEST_F(Program, WithoutASubCommandShowsHelp) {
+  const Outcome outcome = run("");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, HasSubstr("render"));
+  EXPECT_EQ(run("--help").exit_code, 0);
+  EXPECT_EQ(run("render --help").exit_code, 0);
+  EXPECT_THAT(run("--version").out, testing::MatchesRegex("scarf [0-9.]+\n"));
+}
+
+TEST_F(Program, BadUsageExitsWithTwo) {
+  const std::string file = recording(100);
+  for (const std::string& arguments :
+       std::vector<std::string>{"unknown",
+                                "--unknown",
+                                "render",
+                                "render " + file,
+                                "render " + file + " -o",
+                                "info",
+                                "info --unknown x",
+                                "compare a",
+                                "digest " + file + " --cpu --cell 0",
+                                "digest " + file + " --cpu --ratio -1",
+                                "digest " + file + " --cpu --preset nothing",
+                                "digest " + file + " --cpu --preset explicit",
+                                "digest " + file + " --cpu --preset light --ratio 1",
+                                "digest " + file + " --cpu --accumulation 0",
+                                "digest " + file + " --cpu --batch none",
+                                "digest " + file + " --cpu --geometry 0x0",
+                                "render " + file + " --cpu -o " + path("o.jpg"),
+                                "render " + file + " --cpu -o " + path("o") + " --rate 0",
+                                "render " + file + " --cpu -o " + path("o") + " --every 0",
+                                "render " + file + " --cpu -o " + path("o") + " --at start",
+                                "render " + file + " --cpu -o " + path("o") + " --rate 5 --every 5",
+                                "render " + file + " --cpu -o " + path("o.png") + " --rate 5",
+                                "render " + file + " --cpu -o " + path("o.mp4") + " --at end",
+                                "render " + file + " --cpu -o " + path("o") + " --video-fps 5",
+                                "render " + file + " --cpu -o " + path("o.pgm") + " --compare-window 5",
+                                "verify " + file + " --cpu"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.err;
+    EXPECT_FALSE(outcome.err.empty()) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+  }
+  EXPECT_FALSE(fs::exists(path("o")));
+}
+
+TEST_F(Program, BadInputExitsWithOne) {
+  const std::string file = recording(100);
+  write_text(path("empty"), "");
+  write_text(path("prose"), "Once upon a time\nthere was a camera\n");
+  write_text(path("no_sensor.txt"), "0.000001 3 4 1\n0.000002 3 5 0\n");
+  for (const std::string& arguments : std::vector<std::string>{
+           "info " + path("missing"), "info " + path("prose"), "digest --cpu " + path("missing"),
+           "digest --cpu " + path("no_sensor.txt"), "digest --cpu --geometry 32x32 " + file,
+           "digest --cpu " + file + " --dump " + path("none/dump"),
+           "digest " + file + " --device no-such-device",
+           "compare " + path("missing") + " " + path("missing"),
+           "compare " + path("prose") + " " + path("prose"),
+           "render " + file + " --cpu -o " + path("none/o.png"),
+           "render " + file + " --cpu -o " + path("none/o.mp4"),
+           "render " + file + " --cpu -o " + path("o") + " --at-times " + path("missing"),
+           "render " + file + " --cpu -o " + path("o") + " --at-times " + path("prose")}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << arguments << "\n" << outcome.err;
+    EXPECT_FALSE(outcome.err.empty()) << arguments;
+  }
+  EXPECT_THAT(run("digest --cpu " + path("no_sensor.txt")).err, HasSubstr("--geometry"));
+  EXPECT_EQ(run("digest --cpu --geometry 32x32 " + path("no_sensor.txt")).exit_code, 0);
+}
+
+TEST_F(Program, InfoCountsEverything) {
+  write_text(path("some.txt"), "64 48\n0.000010 1 2 1\n0.000030 3 4 0\n0.000025 64 4 0\n0.000020 63 47 1\n");
+  const Outcome outcome = run("info --digest " + path("some.txt"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto value = [&](const std::string& name) {
+    const size_t begin = outcome.out.find("\n" + name + ":");
+    if (begin == std::string::npos) return std::string("missing");
+    std::istringstream line(outcome.out.substr(outcome.out.find(':', begin) + 1));
+    std::string word;
+    line >> word;
+    return word;
+  };
+  EXPECT_THAT(outcome.out, StartsWith("format:            text\n"));
+  EXPECT_EQ(value("sensor"), "64x48");
+  EXPECT_EQ(value("events"), "3");
+  EXPECT_EQ(value("on"), "2");
+  EXPECT_EQ(value("off"), "1");
+  EXPECT_EQ(value("first"), "10");
+  EXPECT_EQ(value("last"), "20");
+  EXPECT_EQ(value("duration"), "10");
+  EXPECT_EQ(value("mean rate"), "300000");
+  EXPECT_EQ(value("outside"), "1");
+  EXPECT_EQ(value("back-steps"), "2");
+  EXPECT_EQ(value("largest back-step"), "5");
+  EventDigest digest;
+  for (const Event& e : std::vector<Event>{{.t = 10, .x = 1, .y = 2, .p = 1},
+                                           {.t = 30, .x = 3, .y = 4, .p = 0},
+                                           {.t = 20, .x = 63, .y = 47, .p = 1}}) {
+    digest.add(e);
+  }
+  EXPECT_THAT(outcome.out, testing::EndsWith("\nevents " + digest.hex() + "\n"));
+}
+
+TEST_F(Program, InfoNeedsNoSensor) {
+  write_text(path("no_sensor.txt"), "0.000001 3 4 1\n0.000002 3 5 0\n");
+  EXPECT_THAT(run("info " + path("no_sensor.txt")).out, HasSubstr("\nsensor:            unknown\n"));
+}
+
+TEST_F(Program, DigestsDoNotDependOnBatches) {
+  const std::string file = recording();
+  const auto scarf = *make_reference_scarf(*make_geometry(Preset::paper, kSensor));
+  ASSERT_TRUE(scarf->push(events_).ok());
+  EventDigest digest;
+  for (const Event& e : events_) digest.add(e);
+  const std::string expected = "state " + state_digest(*scarf->snapshot().wait()) + "\nimage " +
+                               image_digest(*scarf->u8_image().wait()) + "\nevents " + digest.hex() + "\n";
+  for (const char* batch : {"1", "777", "131072", "random", "random:9"}) {
+    EXPECT_EQ(run("digest --cpu " + file + " --batch " + batch).out, expected) << batch;
+  }
+  EXPECT_EQ(run("digest --cpu - <" + file).out, expected);
+}
+
+TEST_F(Program, DumpsAreCompared) {
+  const std::string file = recording();
+  const std::string digest = "digest --cpu " + file + " --dump ";
+  ASSERT_EQ(run(digest + path("a")).exit_code, 0);
+  ASSERT_EQ(run(digest + path("b") + " --batch 99").exit_code, 0);
+  ASSERT_EQ(run(digest + path("light") + " --preset light").exit_code, 0);
+  const Outcome equal = run("compare " + path("a") + " " + path("b"));
+  EXPECT_EQ(equal.exit_code, 0);
+  EXPECT_THAT(equal.out, StartsWith("identical: 48 patches, "));
+
+  std::string bytes = content_of(path("b"));
+  bytes[60 + 8 + 3 * 14 + 6] ^= 1;  // patch 0, slot 3, lowest bit of t
+  write_text(path("b"), bytes);
+  const Outcome different = run("compare " + path("a") + " " + path("b"));
+  EXPECT_EQ(different.exit_code, 1);
+  EXPECT_THAT(different.out, StartsWith("different: patch 0 slot 3: (t "));
+
+  const Outcome geometry = run("compare " + path("a") + " " + path("light"));
+  EXPECT_EQ(geometry.exit_code, 1);
+  EXPECT_THAT(geometry.out, HasSubstr("capacity 233"));
+  EXPECT_THAT(geometry.out, HasSubstr("capacity 81"));
+}
+
+TEST_F(Program, RendersTheReferenceAtEachInstant) {
+  const std::string file = recording();
+  ASSERT_EQ(run("render --cpu " + file + " --rate 29.97 --batch 999 -o " + path("frames")).exit_code, 0);
+  std::string csv = "index,t_us,events\n";
+  int64_t frames = 0;
+  for (int64_t i = 1;; ++i, ++frames) {
+    const int64_t t = events_.front().t + i * 100'000'000 / 2997;
+    const auto due = std::find_if(events_.begin(), events_.end(), [t](const Event& e) { return e.t >= t; });
+    if (due == events_.end()) break;
+    const auto n = static_cast<size_t>(due - events_.begin());
+    csv += std::to_string(frames) + "," + std::to_string(t) + "," + std::to_string(n) + "\n";
+    expect_picture(path(text("frames/frame_", std::setw(6), std::setfill('0'), frames, ".png")),
+                   reference_picture(n));
+  }
+  EXPECT_GE(frames, 5);
+  EXPECT_EQ(content_of(path("frames/frames.csv")), csv);
+}
+
+TEST_F(Program, RendersEveryNthEventAndGivenTimes) {
+  const std::string file = recording(2500);
+  ASSERT_EQ(run("render --cpu " + file + " --every 1000 --preset light -o " + path("every")).exit_code, 0);
+  expect_picture(path("every/frame_000000.png"), reference_picture(1000, Preset::light));
+  expect_picture(path("every/frame_000001.png"), reference_picture(2000, Preset::light));
+  EXPECT_FALSE(fs::exists(path("every/frame_000002.png")));
+
+  const int64_t t = events_[700].t;
+  write_text(path("times"), "0\n" + std::to_string(t) + "\n9000000000\n");
+  ASSERT_EQ(
+      run("render --cpu " + file + " --at-times " + path("times") + " -o " + path("times_out")).exit_code, 0);
+  const auto due = std::find_if(events_.begin(), events_.end(), [t](const Event& e) { return e.t >= t; });
+  expect_picture(path("times_out/frame_000000.png"), reference_picture(0));
+  expect_picture(path("times_out/frame_000001.png"),
+                 reference_picture(static_cast<size_t>(due - events_.begin())));
+  expect_picture(path("times_out/frame_000002.png"), reference_picture(2500));
+}
+
+TEST_F(Program, RendersTheEnd) {
+  const std::string file = recording(5000);
+  ASSERT_EQ(run("render --cpu " + file + " -o " + path("end.png")).exit_code, 0);
+  ASSERT_EQ(run("render --cpu " + file + " --at end -o " + path("end.pgm")).exit_code, 0);
+  expect_picture(path("end.png"), reference_picture(5000));
+  expect_picture(path("end.pgm"), reference_picture(5000));
+}
+
+TEST_F(Program, EventsOutsideTheSensorNeverMoveTime) {
+  // At 1000 Hz the event at 5 ms would make frames due; it is outside, so only the one at 2 ms does.
+  write_text(path("some.txt"), "64 48\n0.000000 99 2 1\n0.000500 1 2 1\n0.005000 64 4 0\n0.002000 3 4 1\n");
+  ASSERT_EQ(run("render --cpu " + path("some.txt") + " --rate 1000 -o " + path("frames")).exit_code, 0);
+  EXPECT_EQ(content_of(path("frames/frames.csv")), "index,t_us,events\n0,1500,1\n");
+}
+
+TEST_F(Program, OneCorruptTimeCannotFillTheDisk) {
+  write_text(path("gap.txt"), "64 48\n0.000000 1 2 1\n90000.000000 3 4 1\n");
+  const Outcome outcome = run("render --cpu " + path("gap.txt") + " -o " + path("frames"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("--max-frames"));
+  EXPECT_FALSE(fs::exists(path("frames/frame_000000.png")));
+  write_text(path("gap.txt"), "64 48\n0.000000 1 2 1\n0.500000 3 4 1\n");
+  EXPECT_EQ(run("render --cpu " + path("gap.txt") + " --max-frames 15 -o " + path("frames")).exit_code, 0);
+  EXPECT_EQ(run("render --cpu " + path("gap.txt") + " --max-frames 14 -o " + path("frames")).exit_code, 1);
+}
+
+TEST_F(Program, RendersVideosAndComparisons) {
+  const std::string file = recording();
+  for (const char* name : {"v.mp4", "v.avi"}) {
+    const Outcome outcome = run("render --cpu " + file + " --compare-window 20 -o " + path(name));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_GT(fs::file_size(path(name)), 0u);
+  }
+  ASSERT_EQ(run("render --cpu " + file + " --compare-window -o " + path("both.png")).exit_code, 0);
+  const cv::Mat both = cv::imread(path("both.png"), cv::IMREAD_UNCHANGED);
+  const cv::Mat expected = reference_picture(events_.size());
+  const cv::Mat left = both(cv::Rect(0, both.rows - 48, 64, 48));
+  EXPECT_EQ(cv::countNonZero(left != expected), 0);
+  const cv::Mat right = both(cv::Rect(both.cols - 64, both.rows - 48, 64, 48));
+  for (const Event& e : events_) {
+    if (e.t >= events_.back().t - 33'000) {
+      EXPECT_EQ(right.at<uint8_t>(e.y, e.x), 255);
+    }
+  }
+}
+
+TEST_F(Program, AFullDiskIsAnError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
+  const std::string file = recording(100);
+  EXPECT_EQ(run("digest --cpu " + file + " --dump /dev/full").exit_code, 1);
+  fs::create_symlink("/dev/full", path("full.png"));
+  EXPECT_EQ(run("render --cpu " + file + " -o " + path("full.png")).exit_code, 1);
+  EXPECT_TRUE(fs::is_symlink(path("full.png")));
+}
+
+TEST_F(Program, VerifiesTheDevice) {
+  const auto devices = list_devices();
+  if (!devices) GTEST_SKIP() << devices.error().message;
+  const std::string file = recording();
+  const Outcome outcome = run("verify " + file + " --batch random:3");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("identical: 20000 events, "));
+  EXPECT_THAT(run("verify " + file + " --batch 1000 --max-events 4500").out,
+              StartsWith("identical: 4500 events, 5 batches, "));
+  EXPECT_EQ(run("digest " + file).out, run("digest --cpu " + file).out);
+}
+
+TEST_F(Program, ListsDevices) {
+  const auto devices = list_devices();
+  if (!devices) GTEST_SKIP() << devices.error().message;
+  const Outcome outcome = run("devices");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const DeviceInfo& device : *devices) {
+    EXPECT_THAT(outcome.out, HasSubstr(device.name));
+    EXPECT_THAT(outcome.out, HasSubstr(device.uuid));
+  }
+}
+
+TEST_F(Program, RealRecordingsHaveTheirKnownDigests) {
+  const char* data = std::getenv("SCARF_DATA_DIR");
+  if (!data) GTEST_SKIP() << "SCARF_DATA_DIR is not set";
+  const std::string raw = std::string(data) + "/raw/";
+  EXPECT_THAT(run("info --digest " + raw + "hd_evt3_driving.raw").out,
+              HasSubstr("events 9bba5ca48301878102200069a89413a3240eaae3ff599d217f1c1a84d13fe7ba\n"));
+  EXPECT_THAT(run("digest --cpu --preset light --batch random " + raw + "vga_evt2_sparks.raw").out,
+              HasSubstr("events 58773c06cd3098d13e0f2781e1134449d2f01ed498d4975aabc2c4e5ec81d44b\n"));
+}
+
+}  // namespace
+}  // namespace scarf::tools

@@ -1,0 +1,33 @@
+// The sub-commands of the program: one file each, which adds its options to the parser and sets what to run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "scarf/result.h"
+
+namespace scarf::tools {
+
+/// What the command line asked for.
+struct Command {
+  /// Set when a sub-command was parsed. Returns the exit code: 0 fine, 1 where the job's answer is "no" and
+  /// has been printed. An Error is printed by main in one line; illegal_parameter exits with 2, every other
+  /// with 1.
+  std::function<Result<int>()> run;
+};
+
+// Each adds its sub-command to `program`, in this manner:
+//   CLI::App* app = program.add_subcommand("digest", "...");
+//   auto options = std::make_shared<DigestOptions>();
+//   app->add_option("file", options->file, "...")->required();
+//   app->callback([&command, options] { command.run = [options] { return digest(*options); }; });
+void add_bench(CLI::App& program, Command& command);
+void add_compare(CLI::App& program, Command& command);
+void add_devices(CLI::App& program, Command& command);
+void add_digest(CLI::App& program, Command& command);
+void add_info(CLI::App& program, Command& command);
+void add_render(CLI::App& program, Command& command);
+void add_simulate(CLI::App& program, Command& command);
+void add_verify(CLI::App& program, Command& command);
+
+}  // namespace scarf::tools

@@ -1,0 +1,64 @@
+// scarf digest: the final state, image and stream of a recording as three lines of text.
+#include "scarf/digest.h"
+
+#include <iostream>
+
+#include "core/text.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/play.h"
+#include "tools/progress.h"
+#include "tools/state_dump.h"
+
+namespace scarf::tools {
+namespace {
+
+struct DigestOptions {
+  StreamOptions stream;
+  std::string dump;
+};
+
+Result<int> digest(const DigestOptions& options) {
+  auto recording = open_recording(options.stream);
+  if (!recording) return recording.error();
+  const auto implementation = make_implementation(options.stream, recording->geometry);
+  if (!implementation) return implementation.error();
+  Scarf& scarf = *implementation->scarf;
+
+  EventDigest events;
+  {
+    Progress progress(*recording->source);
+    const auto take = [&](std::span<const Event> batch) -> Result<void> {
+      for (const Event& e : batch) events.add(e);
+      const auto pushed = scarf.push(batch);
+      if (!pushed) return pushed.error();
+      progress.add(batch.size());
+      return {};
+    };
+    const auto played = play(*recording->source, {.batches = options.stream.batches}, {.events = take});
+    if (!played) return played.error();
+  }
+  const auto snapshot = scarf.snapshot().wait();
+  if (!snapshot) return snapshot.error();
+  const auto image = scarf.u8_image().wait();
+  if (!image) return image.error();
+  if (!options.dump.empty()) {
+    if (auto r = write_state_dump(options.dump, *snapshot); !r) return r.error();
+  }
+  std::cout << text("state ", state_digest(*snapshot), "\nimage ", image_digest(*image), "\nevents ",
+                    events.hex(), "\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_digest(CLI::App& program, Command& command) {
+  CLI::App* app =
+      program.add_subcommand("digest", "SHA-256 of the final state, image and events of a recording");
+  auto options = std::make_shared<DigestOptions>();
+  add_stream_options(*app, options->stream);
+  app->add_option("--dump", options->dump, "File for the hashed state, for scarf compare");
+  app->callback([&command, options] { command.run = [options] { return digest(*options); }; });
+}
+
+}  // namespace scarf::tools

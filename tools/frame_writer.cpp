@@ -1,0 +1,163 @@
+#include "tools/frame_writer.h"
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "tools/files.h"
+
+namespace scarf::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string frame_name(uint64_t index) {
+  std::string digits = std::to_string(index);
+  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
+  return "frame_" + digits + ".png";
+}
+
+bool is_frame_name(const std::string& name) {
+  constexpr std::string_view kBegin = "frame_";
+  constexpr std::string_view kEnd = ".png";
+  if (!name.starts_with(kBegin) || !name.ends_with(kEnd)) return false;
+  const std::string digits = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  return digits.size() >= 6 && digits.find_first_not_of("0123456789") == std::string::npos;
+}
+
+Result<void> write_picture(const std::string& path, const cv::Mat& picture) {
+  std::vector<uint8_t> bytes;
+  if (!cv::imencode(fs::path(path).extension().string(), picture, bytes)) {
+    return Error{ErrorCode::io, text("OpenCV cannot encode ", path, "; install OpenCV with PNG and PGM")};
+  }
+  return write_file(path, bytes);
+}
+
+class FolderWriter final : public FrameWriter {
+ public:
+  explicit FolderWriter(fs::path folder) : folder_(std::move(folder)) {}
+
+  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
+    list_ += text(index_, ",", frame.t, ",", frame.events, "\n");
+    return write_picture((folder_ / frame_name(index_++)).string(), picture);
+  }
+
+  Result<void> finish() override { return write_file((folder_ / "frames.csv").string(), list_); }
+
+ private:
+  const fs::path folder_;
+  uint64_t index_ = 0;
+  std::string list_ = "index,t_us,events\n";
+};
+
+class ImageWriter final : public FrameWriter {
+ public:
+  explicit ImageWriter(std::string path) : path_(std::move(path)) {}
+
+  Result<void> write(const Frame&, const cv::Mat& picture) override { return write_picture(path_, picture); }
+  Result<void> finish() override { return {}; }
+
+ private:
+  const std::string path_;
+};
+
+class VideoFileWriter final : public FrameWriter {
+ public:
+  VideoFileWriter(const std::string& path, double fps) : path_(path), file_(path), fps_(fps) {}
+
+  Result<void> write(const Frame&, const cv::Mat& picture) override {
+    if (frames_ == 0 && !open(picture.size())) {
+      return Error{ErrorCode::io, text("OpenCV cannot write the video ", path_,
+                                       "; install OpenCV with FFmpeg, or give a folder for PNG frames")};
+    }
+    cv::Mat colours;
+    cv::cvtColor(picture, colours, cv::COLOR_GRAY2BGR);  // not every encoder takes single-channel pictures
+    video_.write(colours);
+    ++frames_;
+    return {};
+  }
+
+  Result<void> finish() override {
+    if (frames_ == 0) {
+      return Error{ErrorCode::bad_input, text("no frame was due, so ", path_,
+                                              " was not written; use a higher --rate, or --at end")};
+    }
+    video_.release();
+    // The encoder does not tell of a full disk, but then the file cannot be read back.
+    cv::VideoCapture written(file_.name());
+    const double found = written.isOpened() ? written.get(cv::CAP_PROP_FRAME_COUNT) : 0;
+    if (found != static_cast<double>(frames_)) {
+      return Error{ErrorCode::io, text("cannot write ", path_, ": ", found, " of ", frames_,
+                                       " frames can be read back; check the space on its disk")};
+    }
+    return file_.put_in_place();
+  }
+
+ private:
+  bool open(cv::Size size) {
+    const bool mp4 = fs::path(path_).extension() == ".mp4";
+    const int codec =
+        mp4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v') : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+    return video_.open(file_.name(), codec, fps_, size);
+  }
+
+  const std::string path_;
+  PendingFile file_;
+  const double fps_;
+  cv::VideoWriter video_;
+  uint64_t frames_ = 0;
+};
+
+Result<std::unique_ptr<FrameWriter>> make_folder_writer(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) return Error{ErrorCode::io, text("cannot make the folder ", path, ": ", error.message())};
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    if (is_frame_name(entry.path().filename().string())) old.push_back(entry.path());
+  }
+  for (const fs::path& frame : old) {
+    if (!error) fs::remove(frame, error);
+  }
+  if (error) return Error{ErrorCode::io, text("cannot empty the folder ", path, ": ", error.message())};
+  return std::unique_ptr<FrameWriter>(std::make_unique<FolderWriter>(path));
+}
+
+// An early answer, before a long recording is worked through.
+Result<void> check_folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code ignored;
+  if (folder.empty() || fs::is_directory(folder, ignored)) return {};
+  return Error{ErrorCode::io, text("the folder of ", path, " does not exist; create it first")};
+}
+
+}  // namespace
+
+Result<OutputKind> output_kind(const std::string& path) {
+  std::error_code ignored;
+  const std::string extension = fs::path(path).extension().string();
+  if (extension.empty() || fs::is_directory(path, ignored))
+    return OutputKind::folder;  // "out/" has no extension
+  if (extension == ".mp4" || extension == ".avi") return OutputKind::video;
+  if (extension == ".png" || extension == ".pgm") return OutputKind::image;
+  return Error{ErrorCode::illegal_parameter,
+               text("output ", path,
+                    " is of no known kind; use .mp4 or .avi for a video, .png or .pgm for an "
+                    "image, or end the name in / for a folder of frames")};
+}
+
+Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
+                                                       double video_fps) {
+  if (kind == OutputKind::folder) return make_folder_writer(path);
+  if (auto r = check_folder_of(path); !r) return r.error();
+  if (kind == OutputKind::image) return std::unique_ptr<FrameWriter>(std::make_unique<ImageWriter>(path));
+  return std::unique_ptr<FrameWriter>(std::make_unique<VideoFileWriter>(path, video_fps));
+}
+
+}  // namespace scarf::tools

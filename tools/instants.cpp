@@ -1,0 +1,177 @@
+#include "tools/instants.h"
+
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include "core/text.h"
+#include "tools/parse.h"
+
+namespace scarf::tools {
+namespace {
+
+constexpr uint64_t kMicroseconds = 1'000'000;  // per second
+constexpr size_t kMaxDecimals = 6;             // of a frame rate: keeps the fraction within 64 bits
+
+__extension__ using Int128 = __int128;  // holds any number of frames times any step, so nothing overflows
+
+class AtRate final : public Instants {
+ public:
+  AtRate(FrameRate rate, uint64_t max_frames) : rate_(rate), max_frames_(max_frames) {}
+
+  Result<void> due(std::span<const Event> events, const TakeFrame& take) override {
+    if (!t_first_ && !events.empty()) {
+      t_first_ = events.front().t;
+      next_time_ = time_of(next_);
+    }
+    for (const Event& e : events) {
+      // Told before the first of them is taken: one corrupt time must not fill a disk.
+      if (e.t >= next_time_ && e.t >= time_of(Int128{next_} + max_frames_)) {
+        return Error{ErrorCode::bad_input,
+                     text("event ", events_, " (t ", e.t, ") makes more than ", max_frames_,
+                          " frames due at once; if its time is right, raise --max-frames or lower --rate")};
+      }
+      while (e.t >= next_time_) {
+        if (auto r = take({static_cast<int64_t>(next_time_), events_}); !r) return r;
+        next_time_ = time_of(++next_);
+      }
+      ++events_;
+    }
+    return {};
+  }
+
+  Result<void> due_at_end(const TakeFrame&) override { return {}; }
+
+ private:
+  Int128 time_of(Int128 frame) const {
+    return *t_first_ + frame * kMicroseconds * rate_.denominator / rate_.numerator;
+  }
+
+  const FrameRate rate_;
+  const uint64_t max_frames_;
+  std::optional<int64_t> t_first_;
+  uint64_t next_ = 1;
+  Int128 next_time_ = 0;
+  uint64_t events_ = 0;
+};
+
+class EveryN final : public Instants {
+ public:
+  explicit EveryN(uint64_t n) : n_(n) {}
+
+  Result<void> due(std::span<const Event> events, const TakeFrame& take) override {
+    for (const Event& e : events) {
+      if (++events_ % n_ != 0) continue;
+      if (auto r = take({e.t, events_}); !r) return r;
+    }
+    return {};
+  }
+
+  Result<void> due_at_end(const TakeFrame&) override { return {}; }
+
+ private:
+  const uint64_t n_;
+  uint64_t events_ = 0;
+};
+
+class AtTimes final : public Instants {
+ public:
+  explicit AtTimes(std::vector<int64_t> times) : times_(std::move(times)) {}
+
+  Result<void> due(std::span<const Event> events, const TakeFrame& take) override {
+    for (const Event& e : events) {
+      for (; next_ < times_.size() && e.t >= times_[next_]; ++next_) {
+        if (auto r = take({times_[next_], events_}); !r) return r;
+      }
+      ++events_;
+    }
+    return {};
+  }
+
+  Result<void> due_at_end(const TakeFrame& take) override {
+    for (; next_ < times_.size(); ++next_) {
+      if (auto r = take({times_[next_], events_}); !r) return r;
+    }
+    return {};
+  }
+
+ private:
+  const std::vector<int64_t> times_;
+  size_t next_ = 0;
+  uint64_t events_ = 0;
+};
+
+class AtEnd final : public Instants {
+ public:
+  Result<void> due(std::span<const Event> events, const TakeFrame&) override {
+    if (!events.empty()) last_.t = events.back().t;
+    last_.events += events.size();
+    return {};
+  }
+
+  Result<void> due_at_end(const TakeFrame& take) override { return take(last_); }
+
+ private:
+  Frame last_;
+};
+
+}  // namespace
+
+Result<FrameRate> parse_frame_rate(const std::string& word) {
+  const size_t point = word.find('.');
+  const std::string whole = word.substr(0, point);
+  const std::string decimals = point == std::string::npos ? "" : word.substr(point + 1);
+  const bool digits_only = (whole + decimals).find_first_not_of("0123456789") == std::string::npos;
+  FrameRate rate{0, 1};
+  if (digits_only && !whole.empty() && whole.size() <= 7 && decimals.size() <= kMaxDecimals) {
+    for (size_t i = 0; i < decimals.size(); ++i) rate.denominator *= 10;
+    rate.numerator = parse_integer<uint64_t>(whole + decimals).value_or(0);
+  }
+  if (rate.numerator < 1 || rate.numerator > kMicroseconds * rate.denominator) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("frame rate is '", word, "', legal is 0.000001 to 1000000 with up to 6 decimals")};
+  }
+  return rate;
+}
+
+std::unique_ptr<Instants> frames_at_rate(FrameRate rate, uint64_t max_frames_of_one_event) {
+  return std::make_unique<AtRate>(rate, max_frames_of_one_event);
+}
+
+std::unique_ptr<Instants> frames_every(uint64_t n) {
+  return std::make_unique<EveryN>(n);
+}
+
+std::unique_ptr<Instants> frames_at_times(std::vector<int64_t> times) {
+  return std::make_unique<AtTimes>(std::move(times));
+}
+
+std::unique_ptr<Instants> frame_at_end() {
+  return std::make_unique<AtEnd>();
+}
+
+Result<std::vector<int64_t>> read_times(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return Error{ErrorCode::io, text("cannot open the times file ", path)};
+  std::vector<int64_t> times;
+  std::string line;
+  for (size_t number = 1; std::getline(file, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) continue;
+    const auto t = parse_integer<int64_t>(line);
+    if (!t) {
+      return Error{ErrorCode::bad_input,
+                   text(path, " line ", number, ": '", line, "' is not a whole number of microseconds")};
+    }
+    if (!times.empty() && *t < times.back()) {
+      return Error{ErrorCode::bad_input, text(path, " line ", number, ": time ", *t,
+                                              " is before the one above it; sort the times")};
+    }
+    times.push_back(*t);
+  }
+  if (file.bad()) return Error{ErrorCode::io, text("cannot read the times file ", path)};
+  if (times.empty()) return Error{ErrorCode::bad_input, text(path, " holds no times; write one per line")};
+  return times;
+}
+
+}  // namespace scarf::tools

@@ -1,0 +1,37 @@
+// Two implementations fed with the same batches and compared after every one.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scarf/io.h"
+#include "scarf/scarf.h"
+#include "tools/compare_states.h"
+#include "tools/play.h"
+
+namespace scarf::tools {
+
+struct Lockstep {
+  uint64_t events = 0;                    ///< pushed to both, those of the batch that differed included
+  uint64_t batches = 0;                   ///< likewise
+  uint64_t agreed = 0;                    ///< events of the batches after which both sides were identical
+  std::optional<std::string> difference;  ///< the first one; nothing was pushed after it
+};
+
+/// Errors: what the source returned, or what both sides said to the same batch.
+Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options, Scarf& a, Scarf& b,
+                                 const SideNames& names);
+
+/// Opens the same recording again, from its start.
+using OpenAgain = std::function<Result<std::unique_ptr<EventSource>>()>;
+
+/// Shortens a run that ended with a difference, by bisection within the batch that differed: empties both
+/// sides and plays ever shorter beginnings of the stream. Where the failure does not come again, or a rerun
+/// is not possible, the shortest run known so far stays.
+Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const PlayOptions& options, Scarf& a,
+                          Scarf& b, const SideNames& names);
+
+}  // namespace scarf::tools

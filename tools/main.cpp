@@ -1,0 +1,65 @@
+// The scarf program: parses the command line, runs a sub-command, tells errors in one line.
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "tools/commands.h"
+
+namespace {
+
+constexpr int kFailed = 1;    // the input, the device or the job
+constexpr int kBadUsage = 2;  // the command line
+
+int report(std::string message, int exit_code) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "scarf: " << message << "\n";
+  return exit_code;
+}
+
+int run(const scarf::tools::Command& command) {
+  const auto exit_code = command.run();
+  if (!exit_code) {
+    const bool usage = exit_code.error().code == scarf::ErrorCode::illegal_parameter;
+    return report(exit_code.error().message, usage ? kBadUsage : kFailed);
+  }
+  std::cout.flush();
+  if (!std::cout) return report("cannot write to standard output", kFailed);
+  return *exit_code;
+}
+
+std::string help_command(const CLI::App& program) {
+  const auto parsed = program.get_subcommands();
+  return parsed.empty() ? "scarf --help" : "scarf " + parsed.front()->get_name() + " --help";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("Event-camera streams to velocity-invariant pictures", "scarf");
+  program.set_version_flag("--version", "scarf " SCARF_VERSION);
+  program.require_subcommand(0, 1);
+  scarf::tools::Command command;
+  scarf::tools::add_info(program, command);
+  scarf::tools::add_render(program, command);
+  scarf::tools::add_digest(program, command);
+  scarf::tools::add_compare(program, command);
+  scarf::tools::add_verify(program, command);
+  scarf::tools::add_devices(program, command);
+  scarf::tools::add_simulate(program, command);
+  scarf::tools::add_bench(program, command);
+
+  try {  // CLI11 and OpenCV throw
+    program.parse(argc, argv);
+    if (command.run) return run(command);
+    std::cout << program.help();
+    return kBadUsage;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    return report(std::string(e.what()) + "; see " + help_command(program), kBadUsage);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory; use a larger --cell, or a smaller --batch", kFailed);
+  } catch (const std::exception& e) {
+    return report(e.what(), kFailed);
+  }
+}

@@ -1,0 +1,72 @@
+// Options that render, digest and verify share: the recording, the patch grid, the device.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scarf/geometry.h"
+#include "scarf/gpu.h"
+#include "scarf/io.h"
+#include "tools/batch_sizes.h"
+#include "tools/parse.h"
+
+namespace scarf::tools {
+
+struct StreamOptions {
+  std::string file;
+  std::optional<SensorSize> sensor;
+
+  Preset preset = Preset::paper;
+  std::string cell;  ///< K, or WxH with preset explicit; empty: the default
+  std::optional<double> ratio;
+  std::optional<double> alpha;
+  double accumulation = kDefaultAccumulation;
+  std::optional<Pair> origin, grid, margin_lo, margin_hi;  ///< with preset explicit only
+  std::optional<int32_t> capacity;                         ///< with preset explicit only
+
+  BatchSizes batches = BatchSizes::fixed(kDefaultBatch);
+  DeviceOptions device;
+  bool cpu = false;  ///< the CPU reference instead of a device
+};
+
+/// Adds an option whose word is read by `parse`; its error becomes the parser's.
+template <class T, class Target>
+CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, Target& target,
+                               Result<T> (*parse)(const std::string&), const std::string& help) {
+  // CLI11 runs the check before the callback, so the word is known to be good there.
+  return app
+      .add_option_function<std::string>(
+          name, [&target, parse](const std::string& word) { target = *parse(word); }, help)
+      ->check([parse](const std::string& word) {
+        const auto value = parse(word);
+        return value ? std::string() : value.error().message;
+      });
+}
+
+/// The recording, the grid, the batches and the device.
+void add_stream_options(CLI::App& app, StreamOptions& options);
+
+/// The patch grid that the options ask for on a sensor.
+/// Errors: illegal_parameter, naming the option that is missing, wrong or not used by the preset.
+Result<Geometry> grid_on(const StreamOptions& options, SensorSize sensor);
+
+/// A recording and the patch grid for it.
+struct OpenRecording {
+  std::unique_ptr<EventSource> source;
+  Geometry geometry;
+};
+Result<OpenRecording> open_recording(const StreamOptions& options);
+
+/// A SCARF implementation and the name to show for it.
+struct Implementation {
+  std::unique_ptr<Scarf> scarf;
+  std::string name;
+};
+Result<Implementation> make_reference(const StreamOptions& options, const Geometry& geometry);
+Result<Implementation> make_gpu(const StreamOptions& options, const Geometry& geometry);
+/// The one that the options choose.
+Result<Implementation> make_implementation(const StreamOptions& options, const Geometry& geometry);
+
+}  // namespace scarf::tools

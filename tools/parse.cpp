@@ -1,0 +1,40 @@
+#include "tools/parse.h"
+
+#include "core/text.h"
+#include "scarf/geometry.h"
+
+namespace scarf::tools {
+namespace {
+
+Result<Pair> parse_pair(const std::string& word, char separator, std::string_view form) {
+  const std::string_view view = word;
+  const size_t middle = view.find(separator);
+  if (middle != std::string_view::npos) {
+    const auto x = parse_integer<int32_t>(view.substr(0, middle));
+    const auto y = parse_integer<int32_t>(view.substr(middle + 1));
+    if (x && y) return Pair{*x, *y};
+  }
+  return Error{ErrorCode::illegal_parameter, text("'", word, "' is not of the form ", form)};
+}
+
+}  // namespace
+
+Result<Pair> parse_by(const std::string& word) {
+  return parse_pair(word, 'x', "WxH, such as 18x18");
+}
+
+Result<Pair> parse_comma(const std::string& word) {
+  return parse_pair(word, ',', "X,Y, such as 9,9");
+}
+
+Result<SensorSize> parse_sensor(const std::string& word) {
+  const auto pair = parse_pair(word, 'x', "WxH, such as 640x480");
+  if (!pair) return pair.error();
+  if (pair->x < 1 || pair->x > kMaxSensorSize || pair->y < 1 || pair->y > kMaxSensorSize) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("sensor size is ", word, ", legal is 1x1 to ", kMaxSensorSize, "x", kMaxSensorSize)};
+  }
+  return SensorSize{pair->x, pair->y};
+}
+
+}  // namespace scarf::tools

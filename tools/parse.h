@@ -1,0 +1,36 @@
+// Numbers and pairs of numbers out of words of the command line.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "scarf/event.h"
+#include "scarf/result.h"
+
+namespace scarf::tools {
+
+/// The whole word as an integer; nullopt if it is anything else.
+template <class T>
+std::optional<T> parse_integer(std::string_view word) {
+  T value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// Two numbers of an option: one for each axis.
+struct Pair {
+  int32_t x = 0;
+  int32_t y = 0;
+};
+
+/// "WxH". Errors: illegal_parameter, showing the form.
+Result<Pair> parse_by(const std::string& word);
+/// "X,Y". Errors: illegal_parameter, showing the form.
+Result<Pair> parse_comma(const std::string& word);
+/// "WxH" with 1 to kMaxSensorSize pixels each. Errors: illegal_parameter.
+Result<SensorSize> parse_sensor(const std::string& word);
+
+}  // namespace scarf::tools

@@ -1,0 +1,199 @@
+// scarf render: pictures of a recording, as a folder of images, a video or one image.
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <iostream>
+
+#include "core/text.h"
+#include "tools/commands.h"
+#include "tools/frame_writer.h"
+#include "tools/options.h"
+#include "tools/play.h"
+#include "tools/progress.h"
+#include "tools/window_comparison.h"
+
+namespace scarf::tools {
+namespace {
+
+constexpr size_t kFramesInFlight = 4;          // enough for a device to work while earlier frames are encoded
+constexpr int64_t kDefaultWindow = 33;         // milliseconds: one frame at 30 Hz
+constexpr int64_t kMaxWindow = 1'000'000'000;  // milliseconds: 11 days
+
+struct RenderOptions {
+  StreamOptions stream;
+  std::string output;
+  std::optional<FrameRate> rate;
+  std::optional<uint64_t> every;
+  std::string at;
+  std::string times_file;
+  uint64_t max_frames = 100'000;
+  std::optional<double> video_fps;
+  std::optional<int64_t> window;
+};
+
+Error illegal(const std::string& message) {
+  return {ErrorCode::illegal_parameter, message};
+}
+
+Result<void> check(const RenderOptions& options, OutputKind kind) {
+  const bool timed = options.rate || options.every || !options.times_file.empty();
+  if (kind == OutputKind::image && timed) {
+    return illegal(text(options.output,
+                        " is one image, which shows the end; leave out --rate, --every and "
+                        "--at-times, or give a folder or a video"));
+  }
+  if (kind == OutputKind::video && !options.at.empty()) {
+    return illegal("--at end is one picture; give a .png, a .pgm or a folder instead of a video");
+  }
+  if (options.video_fps && kind != OutputKind::video) {
+    return illegal(
+        "--video-fps is used by videos only; leave it out, or give an output that ends in .mp4 or .avi");
+  }
+  if (options.window && std::filesystem::path(options.output).extension() == ".pgm") {
+    return illegal("--compare-window is not offered for .pgm; use a .png, a folder or a video");
+  }
+  return {};
+}
+
+Result<std::unique_ptr<Instants>> make_instants(const RenderOptions& options, OutputKind kind) {
+  if (options.every) return frames_every(*options.every);
+  if (!options.at.empty() || kind == OutputKind::image) return frame_at_end();
+  if (options.times_file.empty())
+    return frames_at_rate(options.rate.value_or(FrameRate{}), options.max_frames);
+  auto times = read_times(options.times_file);
+  if (!times) return times.error();
+  return frames_at_times(*std::move(times));
+}
+
+// Renders frames while later events are pushed: the last few images stay on their way.
+class Renderer {
+ public:
+  Renderer(Scarf& scarf, FrameWriter& writer, std::optional<int64_t> window)
+      : scarf_(scarf), writer_(writer) {
+    if (window) window_.emplace(scarf.geometry().sensor(), *window);
+  }
+
+  Result<void> push(std::span<const Event> events) {
+    if (window_) window_->add(events);
+    const auto report = scarf_.push(events);
+    if (!report) return report.error();
+    return {};
+  }
+
+  Result<void> ask(const Frame& frame) {
+    in_flight_.push_back({frame, scarf_.u8_image(), window_ ? window_->picture(frame.t) : cv::Mat()});
+    ++frames_;
+    return in_flight_.size() > kFramesInFlight ? write_oldest() : Result<void>();
+  }
+
+  Result<void> finish() {
+    while (!in_flight_.empty()) {
+      if (auto r = write_oldest(); !r) return r;
+    }
+    return writer_.finish();
+  }
+
+  uint64_t frames() const { return frames_; }
+
+ private:
+  struct InFlight {
+    Frame frame;
+    Pending<Image<uint8_t>> image;
+    cv::Mat window;  // empty without a comparison
+  };
+
+  Result<void> write_oldest() {
+    InFlight oldest = std::move(in_flight_.front());
+    in_flight_.pop_front();
+    const auto image = oldest.image.wait();
+    if (!image) return image.error();
+    const cv::Mat picture = as_picture(*image);
+    if (!window_) return writer_.write(oldest.frame, picture);
+    return writer_.write(oldest.frame, side_by_side(picture, "SCARF", oldest.window,
+                                                    text("last ", window_->milliseconds(), " ms")));
+  }
+
+  Scarf& scarf_;
+  FrameWriter& writer_;
+  std::optional<TimeWindow> window_;
+  std::deque<InFlight> in_flight_;
+  uint64_t frames_ = 0;
+};
+
+Result<int> render(const RenderOptions& options) {
+  const auto kind = output_kind(options.output);
+  if (!kind) return kind.error();
+  if (auto r = check(options, *kind); !r) return r.error();
+  const auto instants = make_instants(options, *kind);
+  if (!instants) return instants.error();
+  auto recording = open_recording(options.stream);
+  if (!recording) return recording.error();
+  const auto implementation = make_implementation(options.stream, recording->geometry);
+  if (!implementation) return implementation.error();
+  const auto writer = make_frame_writer(options.output, *kind, options.video_fps.value_or(30));
+  if (!writer) return writer.error();
+
+  Renderer renderer(*implementation->scarf, **writer, options.window);
+  uint64_t events = 0;
+  double seconds = 0;
+  {
+    Progress progress(*recording->source);
+    const auto push = [&](std::span<const Event> batch) -> Result<void> {
+      progress.add(batch.size());
+      return renderer.push(batch);
+    };
+    const auto played =
+        play(*recording->source, {.batches = options.stream.batches, .instants = instants->get()},
+             {.events = push, .frame = [&](const Frame& frame) { return renderer.ask(frame); }});
+    if (!played) return played.error();
+    if (auto r = renderer.finish(); !r) return r.error();
+    events = *played;
+    seconds = progress.seconds();
+  }
+  std::cout << text("rendered ", renderer.frames(), " frames of ", events, " events in ", seconds, " s (",
+                    static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
+                    " events/s with reading and writing) on ", implementation->name, "\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Command& command) {
+  CLI::App* app = program.add_subcommand("render", "Pictures of a recording");
+  auto options = std::make_shared<RenderOptions>();
+  add_stream_options(*app, options->stream);
+  app->add_option("-o,--output", options->output,
+                  "A folder of PNG frames, a video (.mp4, .avi), or one image of the end (.png, .pgm)")
+      ->required();
+  const std::string when = "When";
+  CLI::Option* rate = add_parsed_option(*app, "--rate", options->rate, parse_frame_rate,
+                                        "Frames per second of recorded time, default 30")
+                          ->group(when);
+  CLI::Option* every = app->add_option("--every", options->every, "A frame after every N events")
+                           ->check(CLI::PositiveNumber)
+                           ->group(when);
+  CLI::Option* at = app->add_option("--at", options->at, "end: one frame of the final state")
+                        ->check(CLI::IsMember({"end"}))
+                        ->group(when);
+  CLI::Option* times =
+      app->add_option("--at-times", options->times_file, "File with one time in us per line")->group(when);
+  rate->excludes(every)->excludes(at)->excludes(times);
+  every->excludes(at)->excludes(times);
+  at->excludes(times);
+  app->add_option("--max-frames", options->max_frames,
+                  "Most frames that one gap in the recording may make due")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group(when);
+  app->add_option("--video-fps", options->video_fps, "Speed at which a video is shown, default 30")
+      ->check(CLI::Range(0.1, 1000.0));
+  app->add_option_function<int64_t>(
+         "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },
+         "Beside each frame: the events of the last MS milliseconds, default 33")
+      ->expected(0, 1)
+      ->default_str(std::to_string(kDefaultWindow))
+      ->check(CLI::Range(int64_t{1}, kMaxWindow));
+  app->callback([&command, options] { command.run = [options] { return render(*options); }; });
+}
+
+}  // namespace scarf::tools

@@ -1,0 +1,136 @@
+// scarf simulate: the recording of a simulated event camera, and what it should show.
+#include "scarf/simulate.h"
+
+#include <filesystem>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+
+#include "core/text.h"
+#include "scarf/io.h"
+#include "tools/commands.h"
+#include "tools/files.h"
+#include "tools/options.h"
+#include "tools/parse.h"
+
+namespace scarf::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMaxTruthRate = 10'000;
+
+struct SimulateOptions {
+  std::string output;
+  std::optional<WriteFormat> format;
+  SimulationOptions simulation;
+  std::string truth;  // folder
+  double truth_rate = 30;
+};
+
+Result<WriteFormat> parse_format(const std::string& word) {
+  if (word == "evt2") return WriteFormat::evt2;
+  if (word == "evt3") return WriteFormat::evt3;
+  if (word == "text") return WriteFormat::text;
+  return Error{ErrorCode::illegal_parameter, text("format is '", word, "', legal is evt2, evt3 or text")};
+}
+
+Result<WriteFormat> format_of(const SimulateOptions& options) {
+  if (options.format) return *options.format;
+  const std::string extension = fs::path(options.output).extension().string();
+  if (extension == ".raw") return WriteFormat::evt3;
+  if (extension == ".txt" || extension == ".csv") return WriteFormat::text;
+  return Error{ErrorCode::illegal_parameter, text("the format of ", options.output,
+                                                  " does not follow from its name; add --format evt2, evt3 "
+                                                  "or text, or end the name in .raw, .txt or .csv")};
+}
+
+Result<void> write_png(const fs::path& path, Image<uint8_t> image) {
+  std::vector<uint8_t> bytes;
+  if (!cv::imencode(".png", cv::Mat(image.height, image.width, CV_8UC1, image.pixels.data()), bytes)) {
+    return Error{ErrorCode::io, text("OpenCV cannot encode ", path.string(), "; install OpenCV with PNG")};
+  }
+  return write_file(path.string(), bytes);
+}
+
+// Frames and outlines at the truth rate, from time 0 to the end.
+Result<void> write_truth(const SimulateOptions& options, const Simulation& simulation) {
+  const fs::path folder = options.truth;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    return Error{ErrorCode::io, text("cannot make the folder ", options.truth, ": ", error.message())};
+  std::string list = "index,t_us\n";
+  for (int64_t i = 0;; ++i) {
+    const auto t = static_cast<int64_t>(static_cast<double>(i) * 1e6 / options.truth_rate);
+    if (t > simulation.duration()) break;
+    std::string number = std::to_string(i);
+    if (number.size() < 6) number.insert(0, 6 - number.size(), '0');
+    if (auto r = write_png(folder / ("frame_" + number + ".png"), simulation.frame(t)); !r) return r;
+    if (auto r = write_png(folder / ("edges_" + number + ".png"), simulation.edges(t)); !r) return r;
+    list += text(i, ",", t, "\n");
+  }
+  return write_file((folder / "frames.csv").string(), list);
+}
+
+Result<int> simulate(const SimulateOptions& options) {
+  const auto simulation = make_simulation(options.simulation);
+  if (!simulation) return simulation.error();
+  const auto format = format_of(options);
+  if (!format) return format.error();
+  if (!(options.truth_rate > 0 && options.truth_rate <= kMaxTruthRate)) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("truth rate is ", options.truth_rate, ", legal is above 0, up to ", kMaxTruthRate)};
+  }
+
+  const bool to_stdout = options.output == "-";
+  const auto sink =
+      create_events(to_stdout ? "/dev/stdout" : options.output, *format, options.simulation.sensor);
+  if (!sink) return sink.error();
+  uint64_t events = 0;
+  while (!(*simulation)->finished()) {
+    const auto step = (*simulation)->next();
+    if (auto r = (*sink)->write(step); !r) return r.error();
+    events += step.size();
+  }
+  if (auto r = (*sink)->finish(); !r) return r.error();
+  if (!options.truth.empty()) {
+    if (auto r = write_truth(options, **simulation); !r) return r.error();
+  }
+  const double seconds = static_cast<double>((*simulation)->duration()) / 1e6;
+  (to_stdout ? std::cerr : std::cout)
+      << text(events, " events, ", seconds, " s, ", static_cast<double>(events) / seconds / 1e6, " Mev/s\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, Command& command) {
+  CLI::App* app =
+      program.add_subcommand("simulate", "Record a simulated event camera that watches moving shapes");
+  auto options = std::make_shared<SimulateOptions>();
+  SimulationOptions& o = options->simulation;
+  app->add_option("output", options->output,
+                  "Recording to write: .raw is EVT3, .txt and .csv are text; - is standard output")
+      ->required();
+  add_parsed_option(*app, "--format", options->format, parse_format, "evt2, evt3 or text");
+  std::string scenes;
+  for (const auto name : scene_names()) scenes += (scenes.empty() ? "" : ", ") + std::string(name);
+  app->add_option("--scene", o.scene, scenes)->capture_default_str();
+  add_parsed_option(*app, "--sensor", o.sensor, parse_sensor, "Sensor size WxH [346x260]");
+  app->add_option("--duration", o.duration_s, "Seconds")->capture_default_str();
+  app->add_option("--threshold", o.threshold, "Change of log intensity per event")->capture_default_str();
+  app->add_option("--mismatch", o.mismatch, "Spread of the pixels' thresholds, relative")
+      ->capture_default_str();
+  app->add_option("--refractory", o.refractory_us, "Microseconds a pixel is blind after an event")
+      ->capture_default_str();
+  app->add_option("--noise", o.noise_hz, "Noise events per pixel and second")->capture_default_str();
+  app->add_option("--hot-pixels", o.hot_pixels, "Number of pixels that fire all the time")
+      ->capture_default_str();
+  app->add_option("--seed", o.seed, "Seed of the sensor's imperfections")->capture_default_str();
+  app->add_option("--truth", options->truth, "Folder for PNG frames and masks of the true outlines");
+  app->add_option("--truth-rate", options->truth_rate, "Frames per second of --truth")->capture_default_str();
+  app->callback([&command, options] { command.run = [options] { return simulate(*options); }; });
+}
+
+}  // namespace scarf::tools

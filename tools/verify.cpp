@@ -1,0 +1,87 @@
+// scarf verify: the CPU reference and the device on the same stream, compared after every batch.
+#include <filesystem>
+#include <iostream>
+#include <vector>
+
+#include "core/text.h"
+#include "tools/commands.h"
+#include "tools/lockstep.h"
+#include "tools/options.h"
+
+namespace scarf::tools {
+namespace {
+
+struct VerifyOptions {
+  StreamOptions stream;
+  std::optional<uint64_t> max_events;
+  std::string failing;  ///< where the failing prefix goes
+};
+
+Result<void> write_prefix(const VerifyOptions& options, uint64_t events) {
+  auto recording = open_recording(options.stream);
+  if (!recording) return recording.error();
+  auto sink = create_events(options.failing, WriteFormat::text, recording->geometry.sensor());
+  if (!sink) return sink.error();
+  const auto write = [&](std::span<const Event> batch) { return (*sink)->write(batch); };
+  const auto played = play(*recording->source, {.max_events = events}, {.events = write});
+  if (!played) return played.error();
+  return (*sink)->finish();
+}
+
+Result<int> verify(const VerifyOptions& options) {
+  if (options.stream.cpu) {
+    return Error{ErrorCode::illegal_parameter,
+                 "verify compares the CPU reference with a device; leave out --cpu"};
+  }
+  auto recording = open_recording(options.stream);
+  if (!recording) return recording.error();
+  const auto reference = make_reference(options.stream, recording->geometry);
+  if (!reference) return reference.error();
+  const auto device = make_gpu(options.stream, recording->geometry);
+  if (!device) return device.error();
+
+  Scarf& a = *reference->scarf;
+  Scarf& b = *device->scarf;
+  const SideNames names{reference->name, device->name};
+  PlayOptions play_options{.batches = options.stream.batches};
+  if (options.max_events) play_options.max_events = *options.max_events;
+  auto run = run_in_lockstep(*recording->source, play_options, a, b, names);
+  if (!run) return run.error();
+  if (!run->difference) {
+    std::cout << text("identical: ", run->events, " events, ", run->batches, " batches, ",
+                      recording->geometry.patches(), " patches, device ", device->name, "\n");
+    return 0;
+  }
+  if (options.stream.file == "-") {
+    std::cout << text("different after ", run->events, " events, ", run->batches,
+                      " batches: ", *run->difference,
+                      "\nstandard input cannot be read again: no failing prefix was written\n");
+    return 1;
+  }
+  const auto open_again = [&] { return open_events(options.stream.file, {.sensor = options.stream.sensor}); };
+  const Lockstep failed = shortest_failure(*std::move(run), open_again, play_options, a, b, names);
+  std::cout << text("different after ", failed.events, " events, ", failed.batches,
+                    " batches: ", *failed.difference, "\n");
+  if (auto r = write_prefix(options, failed.events); !r) return r.error();
+  std::cout << text("failing prefix: ", options.failing, "\n");
+  return 1;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, Command& command) {
+  CLI::App* app = program.add_subcommand("verify", "Compare a device with the CPU reference, batch by batch");
+  auto options = std::make_shared<VerifyOptions>();
+  add_stream_options(*app, options->stream);
+  app->add_option("--max-events", options->max_events, "Stop after so many events");
+  app->add_option("--failing", options->failing,
+                  "Text recording for the failing prefix, default NAME.failing.txt in the current folder");
+  app->callback([&command, options] {
+    if (options->failing.empty()) {
+      options->failing = std::filesystem::path(options->stream.file).stem().string() + ".failing.txt";
+    }
+    command.run = [options] { return verify(*options); };
+  });
+}
+
+}  // namespace scarf::tools
