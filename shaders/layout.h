@@ -27,6 +27,9 @@ SCARF_CONSTANT kSlotsPerDispatch = 32768;
 SCARF_CONSTANT kMaxChunkEvents = 32768;
 SCARF_CONSTANT kCursorSkipOne = 65536;
 
+// 8-bit levels in TonePush.
+SCARF_CONSTANT kPushedLevels = 8;
+
 // What an image counts (PolarityMode).
 SCARF_CONSTANT kModeMerged = 0;
 SCARF_CONSTANT kModeSeparate = 1;
@@ -41,13 +44,12 @@ struct BatchPush {
   uint width;         // sensor; the column ranges are ranges[0 .. width], the row ranges ranges[width + 1 ..]
   uint height;
   uint grid_x;
-  uint table_stride;  // words of the table per chunk: patches, then one unused word per lane of the team
+  uint patches;       // words of the table per chunk
   int field_x;        // origin - margin_lo: first pixel of the field of patch 0, may be negative
   int field_y;
   uint cell_x;
   uint cell_y;
   uint capacity;
-  uint unused_slot;   // first of the slots behind the rings that lanes without a hit write to
   uint t_first_low;
   uint t_first_high;
 };
@@ -56,7 +58,6 @@ struct BatchPush {
 struct ScanPush {
   uint patches;
   uint chunks;
-  uint table_stride;
   uint capacity;
 };
 
@@ -86,6 +87,8 @@ struct PatchPush {
 // tone: counts to brightness.
 struct TonePush {
   uint pixels;
+  uint levels_0_to_3;  // 8-bit levels of the counts 0 .. 7, the first in the lowest bits; zero beyond the capacity
+  uint levels_4_to_7;
 };
 
 #ifdef __cplusplus

@@ -12,15 +12,15 @@ layout(std430, binding = 3) writeonly buffer Slots { uint64_t slots[]; };
 void main() {
   const Lane lane = this_lane();
   if (lane.chunk >= push.chunks) return;
-  const uint unused_slot = push.unused_slot + lane.chunk * kTeamLanes + lane.index;
   const uint begin = lane.chunk * push.chunk_events;
   const uint end = min(begin + push.chunk_events, push.events);
   const uint64_t t_first = packUint2x32(uvec2(push.t_first_low, push.t_first_high));
   // Trips: see trips_per_block() in src/scarf/plan.cpp.
   for (uint block = begin; block < end; block += kTeamLanes) {
-    const uint own_xy = position_of(block + lane.index, end);
-    const Field own = field_of(own_xy);
+    // One load of all four words: lavapipe fetches a vector as fast as a scalar.
     const uvec4 event = events[push.first_event + min(block + lane.index, end - 1)];
+    const uint own_xy = block + lane.index < end ? event.z : 0xFFFFFFFFu;  // behind the end: in no patch's field
+    const Field own = field_of(own_xy);
     const uvec2 own_word = unpackUint2x32(pack_time(packUint2x32(event.xy) - t_first) | pack_polarity(event.w & 1));
     for (uint k = 0; k < kTeamLanes; ++k) {
       const uint source = lane.team + k;
@@ -37,14 +37,16 @@ void main() {
         for (uint c = 0; c < kLaneColumns; ++c) {
           const uint i = first_i + c * kTeamX;
           const bool hit = i <= columns >> 16 && j <= rows >> 16;
+          if (!hit) continue;
           const uint patch_id = j * push.grid_x + i;
-          const uint entry = hit ? lane.base + patch_id : lane.unused_entry;
-          const uint cursor = table[entry];
-          const bool survives = cursor < kCursorSkipOne;
-          const uint next = cursor + 1 == push.capacity ? 0 : cursor + 1;
-          table[entry] = survives ? next : cursor - kCursorSkipOne;
+          const uint cursor = table[lane.base + patch_id];
+          if (cursor >= kCursorSkipOne) {
+            table[lane.base + patch_id] = cursor - kCursorSkipOne;
+            continue;
+          }
+          table[lane.base + patch_id] = cursor + 1 == push.capacity ? 0 : cursor + 1;
           // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity.
-          slots[hit && survives ? patch_id * push.capacity + cursor : unused_slot] =
+          slots[patch_id * push.capacity + cursor] =
               packUint2x32(uvec2(word.x | pack_position(x - i * push.cell_x, y - j * push.cell_y), word.y));
         }
       }

@@ -12,7 +12,7 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Slots { uvec2 slots[]; };
 layout(std430, binding = 1) readonly buffer Totals { uvec2 totals[]; };
 layout(std430, binding = 2) buffer Rendered { uvec2 rendered[]; };  // totals when the patch was last drawn
-layout(std430, binding = 3) buffer Counts { int counts[]; };        // planes, then one unused pixel per patch
+layout(std430, binding = 3) buffer Counts { int counts[]; };        // planes
 
 void main() {
   const uint patch_id = linear_index();
@@ -39,15 +39,15 @@ void main() {
       }
     }
   }
-  const uint unused_pixel = 2 * plane + patch_id;
   const uint end = min(push.slot_end, filled_slots(total));
   // Trips: at most kSlotsPerDispatch.
   for (uint s = push.slot_begin; s < end; ++s) {
     const uint word = slots[p.ring + s].x;
+    if (!is_active(word)) continue;
     const uint x = uint(p.field_x) + packed_x(word);
     const uint y = uint(p.field_y) + packed_y(word);
     const uint polarity = packed_polarity(word);
     const uint pixel = y * push.width + x + (push.mode == kModeSeparate ? polarity * plane : 0);
-    counts[is_active(word) ? pixel : unused_pixel] += push.mode == kModeDifference && polarity == 0 ? -1 : 1;
+    counts[pixel] += push.mode == kModeDifference && polarity == 0 ? -1 : 1;
   }
 }

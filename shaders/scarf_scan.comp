@@ -16,7 +16,7 @@ void main() {
   if (patch_id >= push.patches) return;
   uint hits = 0;
   // Trips: 2 * (chunks + 1); Plan::max_chunks keeps them below the device's limit.
-  for (uint c = 0; c < push.chunks; ++c) hits += table[c * push.table_stride + patch_id];
+  for (uint c = 0; c < push.chunks; ++c) hits += table[c * push.patches + patch_id];
   if (hits == 0) return;  // all cursors are zero and nobody reads them
 
   // Of the batch's hits on this patch, numbered 0 .. hits-1, only the last `capacity` survive.
@@ -24,7 +24,7 @@ void main() {
   const uint head = heads[patch_id];
   uint rank = 0;
   for (uint c = 0; c < push.chunks; ++c) {
-    const uint entry = c * push.table_stride + patch_id;
+    const uint entry = c * push.patches + patch_id;
     const uint count = table[entry];
     const uint skip = overwritten > rank ? min(overwritten - rank, count) : 0;
     table[entry] = skip * kCursorSkipOne + (head + rank + skip) % push.capacity;

@@ -7,7 +7,7 @@ namespace scarf::stages {
 void scarf_count(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
                  const layout::BatchPush& push) {
   for_each_hit(events, ranges, push, [&](uint32_t chunk, const Event&, uint32_t i, uint32_t j) {
-    table[chunk * push.table_stride + j * push.grid_x + i] += 1;
+    table[chunk * push.patches + j * push.grid_x + i] += 1;
   });
 }
 

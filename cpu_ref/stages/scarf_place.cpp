@@ -10,7 +10,7 @@ void scarf_place(std::span<const Event> events, std::span<const uint32_t> ranges
   const auto t_first = static_cast<int64_t>(uint64_t{push.t_first_high} << 32 | push.t_first_low);
   for_each_hit(events, ranges, push, [&](uint32_t chunk, const Event& event, uint32_t i, uint32_t j) {
     const uint32_t patch = j * push.grid_x + i;
-    uint32_t& cursor = table[chunk * push.table_stride + patch];
+    uint32_t& cursor = table[chunk * push.patches + patch];
     if (cursor >= layout::kCursorSkipOne) {
       cursor -= layout::kCursorSkipOne;
       return;

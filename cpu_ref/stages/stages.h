@@ -1,6 +1,5 @@
 // CPU twins of the shader stages: the same buffers in, the same buffers out, so that a difference between the
-// device and the reference can be traced to one stage. Plain loops; the lanes' unused entries of the device
-// are left out.
+// device and the reference can be traced to one stage. Plain loops.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 namespace scarf::stages {
 
 /// shaders/scarf_count.comp: adds the hits of each chunk on each patch to `table` (chunk-major,
-/// push.table_stride).
+/// push.patches).
 void scarf_count(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
                  const layout::BatchPush& push);
 

@@ -77,12 +77,12 @@ Result<void> ScarfPipeline::create_buffers(vulkan::Device& device, const Levels&
     const char* name;
     uint64_t bytes;
   } wanted[] = {
-      {slots_, "the ring buffers (patches x capacity)", (ring_slots(geometry_) + plan_.unused_slots()) * 8},
+      {slots_, "the ring buffers (patches x capacity)", ring_slots(geometry_) * 8},
       {table_, "the table of chunks and patches", plan_.table_words() * kWord},
       {heads_, "the ring heads", patches * kWord},
       {totals_, "the totals", patches * 8},
       {rendered_, "the totals drawn", patches * 8},
-      {counts_, "the count image (two planes)", (2 * pixels(geometry_) + patches) * kWord},
+      {counts_, "the count image (two planes)", 2 * pixels(geometry_) * kWord},
       {picture_, "the image (two planes)", 2 * pixels(geometry_) * kWord},
       {cursors_, "the places of extracted events", patches * kWord},
   };
@@ -91,6 +91,9 @@ Result<void> ScarfPipeline::create_buffers(vulkan::Device& device, const Levels&
   }
   const std::vector<uint32_t> ranges = patch_ranges(geometry_);
   const std::vector<uint32_t> u8(levels.u8.begin(), levels.u8.end());
+  for (uint32_t i = 0; i < std::min<size_t>(layout::kPushedLevels, u8.size()); ++i) {
+    (i < 4 ? first_levels_.levels_0_to_3 : first_levels_.levels_4_to_7) |= u8[i] << 8 * (i % 4);
+  }
   if (auto r = assign(ranges_, host_buffer<uint32_t>(device, "the patch ranges", ranges)); !r) return r;
   if (auto r = assign(levels_u8_, host_buffer<uint32_t>(device, "the 8-bit levels", u8)); !r) return r;
   return assign(levels_float_, host_buffer<float>(device, "the float levels", levels.f32));
@@ -107,7 +110,7 @@ Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
     size_t push_bytes;
     std::span<const uint32_t> constants;
   } wanted[] = {
-      {count_, "scarf_count", shaders::scarf_count, 3, sizeof(layout::BatchPush), team},
+      {count_, "scarf_count", shaders::scarf_count, 3, sizeof(layout::BatchPush), {}},
       {scan_, "scarf_scan", shaders::scarf_scan, 3, sizeof(layout::ScanPush), {}},
       {place_, "scarf_place", shaders::scarf_place, 4, sizeof(layout::BatchPush), team},
       {render_, "scarf_render", shaders::scarf_render, 4, sizeof(layout::PatchPush), {}},
@@ -191,13 +194,12 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
   push.width = geometry_.x.size;
   push.height = geometry_.y.size;
   push.grid_x = geometry_.x.grid;
-  push.table_stride = plan_.table_stride;
+  push.patches = plan_.patches;
   push.field_x = geometry_.x.field_begin(0);
   push.field_y = geometry_.y.field_begin(0);
   push.cell_x = geometry_.x.cell;
   push.cell_y = geometry_.y.cell;
   push.capacity = geometry_.capacity;
-  push.unused_slot = static_cast<uint32_t>(ring_slots(geometry_));
   push.t_first_low = low_word(t_first);
   push.t_first_high = high_word(t_first);
   return push;
@@ -205,16 +207,16 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
 
 void ScarfPipeline::record_count(Commands& commands, const PushKernels& kernels,
                                  const layout::BatchPush& push) const {
-  commands.fill(table_, uint64_t{push.chunks} * plan_.table_stride * kWord, 0);
+  commands.fill(table_, uint64_t{push.chunks} * plan_.patches * kWord, 0);
   commands.barrier();
   commands.mark("clear");
-  commands.dispatch(kernels.count, uint64_t{push.chunks} * plan_.team_lanes(), plan_.workgroup_size(), push);
+  commands.dispatch(kernels.count, push.events, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("count");
 }
 
 void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& push) const {
-  const layout::ScanPush scan = {plan_.patches, push.chunks, plan_.table_stride, push.capacity};
+  const layout::ScanPush scan = {push.patches, push.chunks, push.capacity};
   commands.dispatch(bound_scan_, plan_.patches, layout::kLinearGroup, scan);
   commands.barrier();
   commands.mark("scan");
@@ -267,14 +269,15 @@ void ScarfPipeline::record_render(Commands& commands, PolarityMode mode, bool al
 }
 
 void ScarfPipeline::record_tone_u8(Commands& commands, uint32_t planes) const {
-  const layout::TonePush push = {static_cast<uint32_t>(planes * pixels(geometry_))};
+  layout::TonePush push = first_levels_;
+  push.pixels = static_cast<uint32_t>(planes * pixels(geometry_));
   commands.dispatch(bound_tone_u8_, (push.pixels + 3) / 4, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("tone");
 }
 
 void ScarfPipeline::record_tone_float(Commands& commands, uint32_t planes) const {
-  const layout::TonePush push = {static_cast<uint32_t>(planes * pixels(geometry_))};
+  const layout::TonePush push = {static_cast<uint32_t>(planes * pixels(geometry_)), 0, 0};
   commands.dispatch(bound_tone_float_, push.pixels, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("tone");

@@ -45,9 +45,11 @@ class ScarfPipeline {
   /// The stages of record_push one by one, and what render and extract are given, for tests.
   layout::PatchPush patch_push(uint32_t first, uint32_t count) const;
   layout::BatchPush batch_push(uint32_t first, uint32_t count, int64_t t_first) const;
-  void record_count(vulkan::Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const;
+  void record_count(vulkan::Commands& commands, const PushKernels& kernels,
+                    const layout::BatchPush& push) const;
   void record_scan(vulkan::Commands& commands, const layout::BatchPush& push) const;
-  void record_place(vulkan::Commands& commands, const PushKernels& kernels, const layout::BatchPush& push) const;
+  void record_place(vulkan::Commands& commands, const PushKernels& kernels,
+                    const layout::BatchPush& push) const;
   /// render: brings the counts up to date; with `all` also those of unchanged patches.
   void record_render(vulkan::Commands& commands, PolarityMode mode, bool all) const;
   /// tone: the counts of `planes` planes as brightness, in picture().
@@ -75,6 +77,7 @@ class ScarfPipeline {
   vulkan::Device* device_ = nullptr;
   Geometry geometry_;
   Plan plan_;
+  layout::TonePush first_levels_{};
   // Buffers before kernels before bindings: each is destroyed after what uses it.
   vulkan::Buffer ranges_, table_, heads_, totals_, slots_, rendered_, counts_, levels_u8_, levels_float_,
       picture_, cursors_;

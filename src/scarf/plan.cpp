@@ -85,11 +85,10 @@ Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, c
 
   // 8: the entry of the loop over blocks, and loops of the compiler itself.
   const uint32_t blocks = (limits.loop_trips - 8) / trips_per_block(plan);
-  plan.max_chunk_events =
-      static_cast<uint32_t>(std::min<uint64_t>(layout::kMaxChunkEvents, uint64_t{blocks} * plan.team_lanes()));
-  plan.table_stride = plan.patches + plan.team_lanes();
+  plan.max_chunk_events = static_cast<uint32_t>(
+      std::min<uint64_t>(layout::kMaxChunkEvents, uint64_t{blocks} * plan.team_lanes()));
   const uint64_t table_bytes = std::min(limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range);
-  const uint64_t chunks_that_fit = table_bytes / (uint64_t{plan.table_stride} * sizeof(uint32_t));
+  const uint64_t chunks_that_fit = table_bytes / (uint64_t{plan.patches} * sizeof(uint32_t));
   const uint32_t scan_budget = (limits.loop_trips - 8) / 2 - 1;  // the scan walks the chunks twice
   plan.max_chunks =
       static_cast<uint32_t>(std::clamp<uint64_t>(chunks_that_fit, 1, std::min(scan_budget, 1u << 16)));

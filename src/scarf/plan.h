@@ -35,22 +35,20 @@ struct Plan {
   uint32_t submission_events = 0;  ///< most events of one submission
   uint32_t max_chunk_events = 0;   ///< most events of one chunk
   uint32_t max_chunks = 0;         ///< most chunks of one submission
-  uint32_t table_stride = 0;       ///< words of the (chunk, patch) table per chunk
 
   uint32_t forced_chunk_events = 0;  ///< from the options; 0: free
   uint32_t target_chunks = 0;        ///< chunks that keep the device busy
 
   uint32_t team_lanes() const { return team_x * team_y; }
   uint32_t workgroup_size() const { return team_lanes() * teams_per_workgroup; }
-  uint64_t table_words() const { return uint64_t{table_stride} * max_chunks; }
-  /// Slots behind the rings that lanes without a hit write to.
-  uint64_t unused_slots() const { return uint64_t{max_chunks} * team_lanes(); }
+  /// Words of the (chunk, patch) table.
+  uint64_t table_words() const { return uint64_t{patches} * max_chunks; }
   /// Cuts a submission of `events` (at most submission_events).
   Chunking cut(uint32_t events) const;
 };
 
-/// Trips, loop entries included, that a count or place invocation takes per block of as many events as its team has
-/// lanes.
+/// Trips, loop entries included, that a place invocation takes per block of as many events as its
+/// team has lanes.
 uint32_t trips_per_block(const Plan& plan);
 
 /// Errors: illegal_parameter for options out of range; out_of_memory, by name, for a grid beyond the device.

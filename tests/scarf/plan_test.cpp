@@ -21,7 +21,7 @@ vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) 
   return limits;
 }
 
-// The largest number of trips that one invocation of the count or place stage takes, the entry of its loop
+// The largest number of trips that one invocation of the place stage takes, the entry of its loop
 // included.
 uint64_t walk_trips(const Plan& plan, const Chunking& chunking) {
   const uint64_t blocks = (chunking.chunk_events + plan.team_lanes() - 1) / plan.team_lanes();

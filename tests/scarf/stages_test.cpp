@@ -52,17 +52,8 @@ class Stages : public test::DeviceTest {
     return {words, words + count};
   }
 
-  // The table without the entries that belong to lanes rather than patches.
   std::vector<uint32_t> read_table(uint32_t chunks) {
-    std::vector<uint32_t> table = read<uint32_t>(pipeline_->table(), size_t{chunks} * plan_.table_stride);
-    clear_unused(table, chunks);
-    return table;
-  }
-  void clear_unused(std::vector<uint32_t>& table, uint32_t chunks) const {
-    for (uint32_t c = 0; c < chunks; ++c) {
-      for (uint32_t i = plan_.patches; i < plan_.table_stride; ++i)
-        table[size_t{c} * plan_.table_stride + i] = 0;
-    }
+    return read<uint32_t>(pipeline_->table(), size_t{chunks} * plan_.patches);
   }
 
   void compare_batch(const std::vector<Event>& events, int64_t t_first) {
@@ -74,13 +65,12 @@ class Stages : public test::DeviceTest {
     ASSERT_TRUE(kernels);
     const layout::BatchPush push = pipeline_->batch_push(0, static_cast<uint32_t>(events.size()), t_first);
 
-    std::vector<uint32_t> table(size_t{push.chunks} * push.table_stride);
+    std::vector<uint32_t> table(size_t{push.chunks} * push.patches);
     stages::scarf_count(events, ranges_, table, push);
     run([&] { pipeline_->record_count(commands_, *kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "count";
 
-    stages::scarf_scan(table, heads_, totals_,
-                       {plan_.patches, push.chunks, push.table_stride, push.capacity});
+    stages::scarf_scan(table, heads_, totals_, {push.patches, push.chunks, push.capacity});
     run([&] { pipeline_->record_scan(commands_, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "scan";
     ASSERT_EQ(read<uint32_t>(pipeline_->heads(), plan_.patches), heads_) << "scan";
