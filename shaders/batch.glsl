@@ -10,6 +10,10 @@ struct Field {
   uint rows;
 };
 
+bool has_patches(Field field) {
+  return (field.columns & 0xFFFF) <= field.columns >> 16 && (field.rows & 0xFFFF) <= field.rows >> 16;
+}
+
 Field field_of(uint xy) {
   return Field(ranges[min(xy & 0xFFFF, push.width)], ranges[push.width + 1 + min(xy >> 16, push.height)]);
 }

@@ -26,6 +26,8 @@ SCARF_CONSTANT kSlotsPerDispatch = 32768;
 // Chunks have at most 32,768 events and rings at most 65,535 slots, so both halves fit.
 SCARF_CONSTANT kMaxChunkEvents = 32768;
 SCARF_CONSTANT kCursorSkipOne = 65536;
+// The cursor of a chunk none of whose hits on the patch survives.
+SCARF_CONSTANT kCursorDead = 0xFFFFFFFFu;
 
 // 8-bit levels in TonePush.
 SCARF_CONSTANT kPushedLevels = 8;
@@ -52,6 +54,27 @@ struct BatchPush {
   uint capacity;
   uint t_first_low;
   uint t_first_high;
+  uint count_corners; // count: 1 = corners of rectangles, to be integrated; 0 = hits
+  uint prune;         // place: 1 = the prune stage has run
+};
+
+// integrate: running sums along the rows or columns of patches of each chunk.
+struct IntegratePush {
+  uint patches;
+  uint chunks;
+  uint lines;         // per chunk
+  uint line_stride;   // from one line to the next
+  uint line_patches;
+  uint patch_stride;  // from one patch of a line to the next
+};
+
+// prune: which events of a chunk have a surviving hit.
+struct PrunePush {
+  uint patches;
+  uint chunks;
+  uint grid_x;
+  uint most_columns;  // most patches per axis that hold one pixel
+  uint most_rows;
 };
 
 // scan: per-chunk hit counts of a patch to cursors.

@@ -8,6 +8,7 @@
 #include "team.glsl"
 
 layout(std430, binding = 3) writeonly buffer Slots { uint64_t slots[]; };
+layout(std430, binding = 4) readonly buffer Alive { uint alive[]; };  // see scarf_prune.comp; valid if push.prune
 
 void main() {
   const Lane lane = this_lane();
@@ -17,13 +18,21 @@ void main() {
   const uint64_t t_first = packUint2x32(uvec2(push.t_first_low, push.t_first_high));
   // Trips: see trips_per_block() in src/scarf/plan.cpp.
   for (uint block = begin; block < end; block += kTeamLanes) {
-    // One load of all four words: lavapipe fetches a vector as fast as a scalar.
-    const uvec4 event = events[push.first_event + min(block + lane.index, end - 1)];
-    const uint own_xy = block + lane.index < end ? event.z : 0xFFFFFFFFu;  // behind the end: in no patch's field
+    const uint own_event = push.first_event + min(block + lane.index, end - 1);
+    const uint own_xy = events[own_event].z;
     const Field own = field_of(own_xy);
-    const uvec2 own_word = unpackUint2x32(pack_time(packUint2x32(event.xy) - t_first) | pack_polarity(event.w & 1));
-    for (uint k = 0; k < kTeamLanes; ++k) {
-      const uint source = lane.team + k;
+    bool walked = block + lane.index < end && has_patches(own);
+    if (push.prune != 0 && walked) {
+      walked = alive[lane.base + (own.rows & 0xFFFF) * push.grid_x + (own.columns & 0xFFFF)] != 0;
+    }
+    uvec2 own_word = uvec2(0);
+    if (walked) {
+      const uvec4 event = events[own_event];
+      own_word = unpackUint2x32(pack_time(packUint2x32(event.xy) - t_first) | pack_polarity(event.w & 1));
+    }
+    // The team takes the events that are left in their order.
+    for (uint left = team_ballot(lane, walked); left != 0; left &= left - 1) {
+      const uint source = lane.team + findLSB(left);
       const uint columns = subgroupShuffle(own.columns, source);
       const uint rows = subgroupShuffle(own.rows, source);
       const uint xy = subgroupShuffle(own_xy, source);
@@ -36,10 +45,10 @@ void main() {
         const uint j = first_j + r * kTeamY;
         for (uint c = 0; c < kLaneColumns; ++c) {
           const uint i = first_i + c * kTeamX;
-          const bool hit = i <= columns >> 16 && j <= rows >> 16;
-          if (!hit) continue;
+          if (i > columns >> 16 || j > rows >> 16) continue;
           const uint patch_id = j * push.grid_x + i;
           const uint cursor = table[lane.base + patch_id];
+          if (cursor == kCursorDead) continue;
           if (cursor >= kCursorSkipOne) {
             table[lane.base + patch_id] = cursor - kCursorSkipOne;
             continue;

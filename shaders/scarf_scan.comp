@@ -17,7 +17,6 @@ void main() {
   uint hits = 0;
   // Trips: 2 * (chunks + 1); Plan::max_chunks keeps them below the device's limit.
   for (uint c = 0; c < push.chunks; ++c) hits += table[c * push.patches + patch_id];
-  if (hits == 0) return;  // all cursors are zero and nobody reads them
 
   // Of the batch's hits on this patch, numbered 0 .. hits-1, only the last `capacity` survive.
   const uint overwritten = hits > push.capacity ? hits - push.capacity : 0;
@@ -27,7 +26,7 @@ void main() {
     const uint entry = c * push.patches + patch_id;
     const uint count = table[entry];
     const uint skip = overwritten > rank ? min(overwritten - rank, count) : 0;
-    table[entry] = skip * kCursorSkipOne + (head + rank + skip) % push.capacity;
+    table[entry] = skip == count ? kCursorDead : skip * kCursorSkipOne + (head + rank + skip) % push.capacity;
     rank += count;
   }
   heads[patch_id] = (head + hits) % push.capacity;

@@ -5,6 +5,7 @@
 // A team lies within one subgroup, whose size the pipeline requires: each lane loads one of the next events, and the
 // team then takes them one by one, by shuffles.
 #extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
 layout(local_size_x_id = 0) in;
@@ -37,6 +38,11 @@ Lane this_lane() {
   lane.y = lane.index / kTeamX;
   lane.base = lane.chunk * push.patches;
   return lane;
+}
+
+// One bit per lane of the team, the first lane's lowest. Teams have at most 32 lanes, all in one word of a ballot.
+uint team_ballot(Lane lane, bool value) {
+  return subgroupBallot(value)[lane.team / 32] >> lane.team % 32 & 0xFFFFFFFFu >> 32 - kTeamLanes;
 }
 
 // First value >= first that is = lane mod team.

@@ -11,6 +11,7 @@ void scarf_place(std::span<const Event> events, std::span<const uint32_t> ranges
   for_each_hit(events, ranges, push, [&](uint32_t chunk, const Event& event, uint32_t i, uint32_t j) {
     const uint32_t patch = j * push.grid_x + i;
     uint32_t& cursor = table[chunk * push.patches + patch];
+    if (cursor == layout::kCursorDead) return;
     if (cursor >= layout::kCursorSkipOne) {
       cursor -= layout::kCursorSkipOne;
       return;

@@ -10,14 +10,18 @@
 
 namespace scarf::stages {
 
-/// shaders/scarf_count.comp: adds the hits of each chunk on each patch to `table` (chunk-major,
-/// push.patches).
+/// shaders/scarf_count.comp, and scarf_integrate.comp where that follows: adds the hits of each chunk on each
+/// patch to `table` (chunk-major, push.patches).
 void scarf_count(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
                  const layout::BatchPush& push);
 
 /// shaders/scarf_scan.comp: hit counts become cursors; heads and totals advance.
 void scarf_scan(std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
                 const layout::ScanPush& push);
+
+/// shaders/scarf_prune.comp: for each chunk and first patch of a field, 1 if an event there may have a
+/// surviving hit. The twin of place needs no such flags: dead hits are dead without them.
+void scarf_prune(std::span<const uint32_t> table, std::span<uint32_t> alive, const layout::PrunePush& push);
 
 /// shaders/scarf_place.comp: stores the hits that survive the batch.
 void scarf_place(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,

@@ -79,6 +79,7 @@ Result<void> ScarfPipeline::create_buffers(vulkan::Device& device, const Levels&
   } wanted[] = {
       {slots_, "the ring buffers (patches x capacity)", ring_slots(geometry_) * 8},
       {table_, "the table of chunks and patches", plan_.table_words() * kWord},
+      {alive_, "the table of chunks and surviving events", plan_.table_words() * kWord},
       {heads_, "the ring heads", patches * kWord},
       {totals_, "the totals", patches * 8},
       {rendered_, "the totals drawn", patches * 8},
@@ -111,8 +112,10 @@ Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
     std::span<const uint32_t> constants;
   } wanted[] = {
       {count_, "scarf_count", shaders::scarf_count, 3, sizeof(layout::BatchPush), {}},
+      {integrate_, "scarf_integrate", shaders::scarf_integrate, 1, sizeof(layout::IntegratePush), {}},
       {scan_, "scarf_scan", shaders::scarf_scan, 3, sizeof(layout::ScanPush), {}},
-      {place_, "scarf_place", shaders::scarf_place, 4, sizeof(layout::BatchPush), team},
+      {prune_, "scarf_prune", shaders::scarf_prune, 2, sizeof(layout::PrunePush), {}},
+      {place_, "scarf_place", shaders::scarf_place, 5, sizeof(layout::BatchPush), team},
       {render_, "scarf_render", shaders::scarf_render, 4, sizeof(layout::PatchPush), {}},
       {tone_u8_, "scarf_tone_u8", shaders::scarf_tone_u8, 3, sizeof(layout::TonePush), {}},
       {tone_float_, "scarf_tone_float", shaders::scarf_tone_float, 3, sizeof(layout::TonePush), {}},
@@ -131,7 +134,9 @@ Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
     const Kernel& kernel;
     std::initializer_list<const Buffer*> buffers;
   } bindings[] = {
+      {bound_integrate_, integrate_, {&table_}},
       {bound_scan_, scan_, {&table_, &heads_, &totals_}},
+      {bound_prune_, prune_, {&table_, &alive_}},
       {bound_render_, render_, {&slots_, &totals_, &rendered_, &counts_}},
       {bound_tone_u8_, tone_u8_, {&counts_, &levels_u8_, &picture_}},
       {bound_tone_float_, tone_float_, {&counts_, &levels_float_, &picture_}},
@@ -147,7 +152,8 @@ Result<PushKernels> ScarfPipeline::bind_events(const Buffer& events) const {
   PushKernels k;
   if (auto r = assign(k.count, BoundKernel::create(*device_, count_, {&events, &ranges_, &table_})); !r)
     return r.error();
-  if (auto r = assign(k.place, BoundKernel::create(*device_, place_, {&events, &ranges_, &table_, &slots_}));
+  if (auto r = assign(k.place,
+                      BoundKernel::create(*device_, place_, {&events, &ranges_, &table_, &slots_, &alive_}));
       !r) {
     return r.error();
   }
@@ -195,6 +201,8 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
   push.height = geometry_.y.size;
   push.grid_x = geometry_.x.grid;
   push.patches = plan_.patches;
+  push.count_corners = plan_.count_corners ? 1 : 0;
+  push.prune = chunking.prune ? 1 : 0;
   push.field_x = geometry_.x.field_begin(0);
   push.field_y = geometry_.y.field_begin(0);
   push.cell_x = geometry_.x.cell;
@@ -213,6 +221,15 @@ void ScarfPipeline::record_count(Commands& commands, const PushKernels& kernels,
   commands.dispatch(kernels.count, push.events, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("count");
+  if (push.count_corners == 0) return;
+  const uint32_t grid_y = push.patches / push.grid_x;
+  const layout::IntegratePush rows = {push.patches, push.chunks, grid_y, push.grid_x, push.grid_x, 1};
+  const layout::IntegratePush columns = {push.patches, push.chunks, push.grid_x, 1, grid_y, push.grid_x};
+  for (const layout::IntegratePush& lines : {rows, columns}) {
+    commands.dispatch(bound_integrate_, uint64_t{lines.chunks} * lines.lines, layout::kLinearGroup, lines);
+    commands.barrier();
+  }
+  commands.mark("integrate");
 }
 
 void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& push) const {
@@ -220,6 +237,15 @@ void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& pus
   commands.dispatch(bound_scan_, plan_.patches, layout::kLinearGroup, scan);
   commands.barrier();
   commands.mark("scan");
+}
+
+void ScarfPipeline::record_prune(Commands& commands, const layout::BatchPush& push) const {
+  if (push.prune == 0) return;
+  const layout::PrunePush prune = {push.patches, push.chunks, push.grid_x, plan_.most_columns,
+                                   plan_.most_rows};
+  commands.dispatch(bound_prune_, uint64_t{push.chunks} * push.patches, layout::kLinearGroup, prune);
+  commands.barrier();
+  commands.mark("prune");
 }
 
 void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels,
@@ -234,6 +260,7 @@ void ScarfPipeline::record_push(Commands& commands, const PushKernels& kernels, 
   const layout::BatchPush push = batch_push(first, count, t_first);
   record_count(commands, kernels, push);
   record_scan(commands, push);
+  record_prune(commands, push);
   record_place(commands, kernels, push);
 }
 
@@ -309,8 +336,8 @@ void ScarfPipeline::record_extract(Commands& commands, const ExtractTarget& targ
 
 uint64_t ScarfPipeline::memory_bytes() const {
   uint64_t bytes = 0;
-  for (const Buffer* b : {&ranges_, &table_, &heads_, &totals_, &slots_, &rendered_, &counts_, &levels_u8_,
-                          &levels_float_, &picture_, &cursors_}) {
+  for (const Buffer* b : {&ranges_, &table_, &alive_, &heads_, &totals_, &slots_, &rendered_, &counts_,
+                          &levels_u8_, &levels_float_, &picture_, &cursors_}) {
     bytes += b->size();
   }
   return bytes;

@@ -39,7 +39,8 @@ class ScarfPipeline {
 
   /// Empties the state.
   void record_reset(vulkan::Commands& commands) const;
-  /// count, scan, place: events first .. first+count-1 of the bound buffer; at most Plan::submission_events.
+  /// count, integrate and prune (where they pay), scan, place: events first .. first+count-1 of the bound
+  /// buffer; at most Plan::submission_events.
   void record_push(vulkan::Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
                    int64_t t_first) const;
   /// The stages of record_push one by one, and what render and extract are given, for tests.
@@ -48,6 +49,7 @@ class ScarfPipeline {
   void record_count(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
   void record_scan(vulkan::Commands& commands, const layout::BatchPush& push) const;
+  void record_prune(vulkan::Commands& commands, const layout::BatchPush& push) const;
   void record_place(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
   /// render: brings the counts up to date; with `all` also those of unchanged patches.
@@ -61,6 +63,7 @@ class ScarfPipeline {
 
   uint64_t half_events() const;
   const vulkan::Buffer& table() const { return table_; }
+  const vulkan::Buffer& alive() const { return alive_; }
   const vulkan::Buffer& heads() const { return heads_; }
   const vulkan::Buffer& totals() const { return totals_; }
   const vulkan::Buffer& slots() const { return slots_; }
@@ -79,11 +82,12 @@ class ScarfPipeline {
   Plan plan_;
   layout::TonePush first_levels_{};
   // Buffers before kernels before bindings: each is destroyed after what uses it.
-  vulkan::Buffer ranges_, table_, heads_, totals_, slots_, rendered_, counts_, levels_u8_, levels_float_,
-      picture_, cursors_;
-  vulkan::Kernel count_, scan_, place_, render_, tone_u8_, tone_float_, extract_count_, extract_scan_,
-      extract_write_;
-  vulkan::BoundKernel bound_scan_, bound_render_, bound_tone_u8_, bound_tone_float_, bound_extract_count_;
+  vulkan::Buffer ranges_, table_, alive_, heads_, totals_, slots_, rendered_, counts_, levels_u8_,
+      levels_float_, picture_, cursors_;
+  vulkan::Kernel count_, integrate_, scan_, prune_, place_, render_, tone_u8_, tone_float_, extract_count_,
+      extract_scan_, extract_write_;
+  vulkan::BoundKernel bound_integrate_, bound_scan_, bound_prune_, bound_render_, bound_tone_u8_,
+      bound_tone_float_, bound_extract_count_;
 };
 
 }  // namespace scarf

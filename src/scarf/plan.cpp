@@ -32,8 +32,13 @@ constexpr uint32_t kSubmissionEventsGpu = 1u << 20;
 constexpr uint32_t kTargetChunksCpu = 16;
 constexpr uint32_t kTargetChunksGpu = 2048;
 
+constexpr uint64_t kPruneHitsPerSlot = 4;
+// An atomic on a CPU device costs as much as two loads; the sums over corners cost some of each.
+constexpr uint32_t kMostHitsCountedOneByOne = 6;
+
 constexpr uint32_t kMaxSubmissionEvents = 1u << 24;
 constexpr uint32_t kMaxStagingSlots = 16;
+constexpr uint32_t kMaxTeamLanes = 32;  // see team_ballot() in shaders/team.glsl
 
 Error illegal(std::string message) {
   return {ErrorCode::illegal_parameter, std::move(message)};
@@ -52,7 +57,10 @@ Chunking Plan::cut(uint32_t events) const {
   if (events == 0) return {};
   uint32_t chunk = forced_chunk_events != 0 ? forced_chunk_events : ceil_div(events, target_chunks);
   chunk = std::clamp(chunk, ceil_div(events, max_chunks), max_chunk_events);
-  return {chunk, ceil_div(events, chunk)};
+  // Where most patches get several times their capacity, most hits are overwritten within the batch.
+  const uint64_t hits = uint64_t{events} * most_columns * most_rows;
+  const bool prune = hits >= kPruneHitsPerSlot * patches * capacity;
+  return {chunk, ceil_div(events, chunk), prune};
 }
 
 Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, const GpuOptions& options) {
@@ -74,14 +82,17 @@ Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, c
   }
   Plan plan;
   plan.patches = static_cast<uint32_t>(geometry.patches());
-  const uint32_t columns = most_holders(geometry.x);
-  const uint32_t rows = most_holders(geometry.y);
-  const uint32_t lanes = std::bit_floor(std::clamp(limits.subgroup_size, 1u, 64u));
-  plan.team_x = std::min(std::bit_ceil(columns), lanes);
-  plan.team_y = std::min(std::bit_ceil(rows), lanes / plan.team_x);
-  plan.lane_columns = ceil_div(columns, plan.team_x);
-  plan.lane_rows = ceil_div(rows, plan.team_y);
-  plan.teams_per_workgroup = lanes / plan.team_lanes();
+  plan.capacity = static_cast<uint32_t>(geometry.capacity);
+  plan.most_columns = most_holders(geometry.x);
+  plan.most_rows = most_holders(geometry.y);
+  const uint32_t lanes = std::min(limits.subgroup_size, kMaxTeamLanes);
+  plan.team_x = std::min(std::bit_ceil(plan.most_columns), lanes);
+  plan.team_y = std::min(std::bit_ceil(plan.most_rows), lanes / plan.team_x);
+  plan.lane_columns = ceil_div(plan.most_columns, plan.team_x);
+  plan.lane_rows = ceil_div(plan.most_rows, plan.team_y);
+  plan.teams_per_workgroup = limits.subgroup_size / plan.team_lanes();
+
+  plan.count_corners = plan.most_columns * plan.most_rows > kMostHitsCountedOneByOne;
 
   // 8: the entry of the loop over blocks, and loops of the compiler itself.
   const uint32_t blocks = (limits.loop_trips - 8) / trips_per_block(plan);

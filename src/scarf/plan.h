@@ -20,10 +20,15 @@ inline constexpr int64_t kMaxPatches = 4'000'000;
 struct Chunking {
   uint32_t chunk_events = 0;
   uint32_t chunks = 0;
+  bool prune =
+      false;  ///< so many hits do not survive that it pays to find out which events have none that do
 };
 
 struct Plan {
   uint32_t patches = 0;
+  uint32_t capacity = 0;
+  uint32_t most_columns = 1;  ///< most patches per axis that hold one pixel
+  uint32_t most_rows = 1;
   // A team has team_x * team_y lanes, both powers of two; a lane owns up to lane_columns * lane_rows patches
   // of one event. See shaders/team.glsl.
   uint32_t team_x = 1;
@@ -35,6 +40,9 @@ struct Plan {
   uint32_t submission_events = 0;  ///< most events of one submission
   uint32_t max_chunk_events = 0;   ///< most events of one chunk
   uint32_t max_chunks = 0;         ///< most chunks of one submission
+
+  /// An event's rectangle of patches is counted by its corners, not patch by patch.
+  bool count_corners = false;
 
   uint32_t forced_chunk_events = 0;  ///< from the options; 0: free
   uint32_t target_chunks = 0;        ///< chunks that keep the device busy

@@ -44,7 +44,8 @@ TEST(Plan, StaysWithinTheLoopBudgetForEveryGeometryAndBatch) {
         options.chunk_events = chunk_events;
         const auto plan = make_plan(g, limits, options);
         ASSERT_TRUE(plan) << plan.error().message;
-        EXPECT_LE(plan->workgroup_size(), 64u);
+        EXPECT_EQ(plan->workgroup_size(), subgroup);
+        EXPECT_LE(plan->team_lanes(), 32u);
         EXPECT_LE(plan->table_words() * 4, limits.storage_range);
         EXPECT_LE(2 * (uint64_t{plan->max_chunks} + 1), limits.loop_trips);
         for (uint32_t events : {1u, plan->max_chunk_events, plan->max_chunk_events + 1,
@@ -78,6 +79,21 @@ TEST(Plan, EveryPatchOfAnEventHasOneLane) {
       }
     }
   }
+}
+
+TEST(Plan, PrunesWhereMostHitsAreOverwritten) {
+  const vulkan::Limits limits = limits_of(8, 60'000, true);
+  const Plan small = *make_plan(*make_geometry(Preset::paper, {240, 180}), limits, {});
+  EXPECT_TRUE(small.cut(100'000).prune);
+  EXPECT_FALSE(small.cut(10'000).prune);
+  const Plan large = *make_plan(*make_geometry(Preset::paper, {1280, 720}), limits, {});
+  EXPECT_FALSE(large.cut(100'000).prune);
+}
+
+TEST(Plan, CountsCornersWhereAnEventHasManyPatches) {
+  const vulkan::Limits limits = limits_of(8, 60'000, true);
+  EXPECT_TRUE(make_plan(*make_geometry(Preset::paper, {240, 180}), limits, {})->count_corners);
+  EXPECT_FALSE(make_plan(*make_geometry(Preset::light, {240, 180}), limits, {})->count_corners);
 }
 
 TEST(Plan, RefusesOptionsOutOfRangeByName) {

@@ -76,6 +76,15 @@ class Stages : public test::DeviceTest {
     ASSERT_EQ(read<uint32_t>(pipeline_->heads(), plan_.patches), heads_) << "scan";
     ASSERT_EQ(read<uint64_t>(pipeline_->totals(), plan_.patches), totals_) << "scan";
 
+    if (push.prune != 0) {
+      std::vector<uint32_t> alive(table.size());
+      stages::scarf_prune(table, alive,
+                          {push.patches, push.chunks, push.grid_x, plan_.most_columns, plan_.most_rows});
+      run([&] { pipeline_->record_prune(commands_, push); });
+      ASSERT_EQ(read<uint32_t>(pipeline_->alive(), alive.size()), alive) << "prune";
+      ++pruned_;
+    }
+
     stages::scarf_place(events, ranges_, table, slots_, push);
     run([&] { pipeline_->record_place(commands_, *kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "place";
@@ -136,6 +145,7 @@ class Stages : public test::DeviceTest {
   }
 
   Geometry geometry_;
+  int pruned_ = 0;  // batches
   Plan plan_;
   std::unique_ptr<ScarfPipeline> pipeline_;
   Commands commands_;
@@ -164,6 +174,8 @@ TEST_F(Stages, EqualTheirTwins) {
     ASSERT_NO_FATAL_FAILURE(compare_extraction(0, plan_.patches, true, kFirst));
     ASSERT_NO_FATAL_FAILURE(compare_extraction(plan_.patches / 2, 1, false, kFirst));
   }
+  EXPECT_GT(pruned_, 3);
+  EXPECT_LT(pruned_, 33);
 }
 
 }  // namespace

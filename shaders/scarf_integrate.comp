@@ -1,0 +1,23 @@
+// SCARF, stage "integrate": running sums along lines of the table, in place; first along all rows of patches, then
+// along all columns. Turns the corners that scarf_count.comp counted into hits.
+// CPU twin: the sums of cpu_ref/stages/scarf_count.cpp, which counts hits directly.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "layout.h"
+layout(local_size_x = kLinearGroup) in;
+#include "invocation.glsl"
+
+layout(std430, binding = 0) buffer TableBuffer { uint table[]; };
+layout(push_constant) uniform Push { IntegratePush push; };
+
+void main() {
+  const uint line = linear_index();
+  if (line >= push.chunks * push.lines) return;
+  const uint begin = line / push.lines * push.patches + line % push.lines * push.line_stride;
+  uint sum = 0;
+  // Trips: patches of one axis, at most 49,152.
+  for (uint i = 0; i < push.line_patches; ++i) {
+    sum += table[begin + i * push.patch_stride];
+    table[begin + i * push.patch_stride] = sum;
+  }
+}
