@@ -19,7 +19,6 @@ SCARF_CONSTANT kLinearGroup = 64;
 SCARF_CONSTANT kScanGroup = 256;
 
 // Slots of a ring that one invocation walks in one dispatch; longer rings take several dispatches.
-// A render invocation also clears up to 128 * 128 pixels: 32,768 + 16,384 + 128 + 4 trips stay below 60,000.
 SCARF_CONSTANT kSlotsPerDispatch = 32768;
 
 // A chunk cursor is (hits still to be overwritten) << 16 | (slot of the first surviving hit).
@@ -32,8 +31,7 @@ SCARF_CONSTANT kCursorDead = 0xFFFFFFFFu;
 // 8-bit levels in TonePush.
 SCARF_CONSTANT kPushedLevels = 8;
 
-// What an image counts (PolarityMode).
-SCARF_CONSTANT kModeMerged = 0;
+// What the render stage counts (PolarityMode); merged counts are kept by the place stage.
 SCARF_CONSTANT kModeSeparate = 1;
 SCARF_CONSTANT kModeDifference = 2;
 
@@ -49,6 +47,8 @@ struct BatchPush {
   uint patches;       // words of the table per chunk
   int field_x;        // origin - margin_lo: first pixel of the field of patch 0, may be negative
   int field_y;
+  uint margin_lo_x;
+  uint margin_lo_y;
   uint cell_x;
   uint cell_y;
   uint capacity;
@@ -56,6 +56,11 @@ struct BatchPush {
   uint t_first_high;
   uint count_corners; // count: 1 = corners of rectangles, to be integrated; 0 = hits
   uint prune;         // place: 1 = the prune stage has run
+};
+
+// clear: the slots of all rings.
+struct ClearPush {
+  uint slots;
 };
 
 // integrate: running sums along the rows or columns of patches of each chunk.
@@ -101,7 +106,6 @@ struct PatchPush {
   uint slot_begin;    // ring slots (render) or ranks from the oldest (extract) of this dispatch
   uint slot_end;
   uint mode;          // render: kMode...; extract: 1 = active events only
-  uint render_all;    // render: 1 = also patches that have not changed since they were last drawn
   uint half_events;   // extract: events that the first half of the output holds
   uint t_first_low;
   uint t_first_high;

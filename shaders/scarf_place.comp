@@ -1,4 +1,5 @@
 // SCARF, stage "place": the chunks are walked again, and the hits that survive the batch are stored in their slots.
+// The count image follows: what a slot held is no longer shown, what it holds now is.
 // CPU twin: cpu_ref/stages/scarf_place.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -7,8 +8,40 @@
 #include "packed_event.glsl"
 #include "team.glsl"
 
-layout(std430, binding = 3) writeonly buffer Slots { uint64_t slots[]; };
+layout(std430, binding = 3) buffer Slots { uint64_t slots[]; };
 layout(std430, binding = 4) readonly buffer Alive { uint alive[]; };  // see scarf_prune.comp; valid if push.prune
+layout(std430, binding = 5) buffer Counts { int counts[]; };          // active stored events per pixel
+
+bool is_active(uint local_x, uint local_y) {
+  // Differences below zero wrap to large numbers.
+  return local_x - push.margin_lo_x < push.cell_x && local_y - push.margin_lo_y < push.cell_y;
+}
+
+// One hit of an event (x | y << 16, time and polarity packed) on patch (i, j).
+void place_hit(Lane lane, uint i, uint j, uint xy, uvec2 word) {
+  const uint patch_id = j * push.grid_x + i;
+  const uint cursor = table[lane.base + patch_id];
+  if (cursor >= kCursorSkipOne) {
+    if (cursor != kCursorDead) table[lane.base + patch_id] = cursor - kCursorSkipOne;
+    return;
+  }
+  table[lane.base + patch_id] = cursor + 1 == push.capacity ? 0 : cursor + 1;
+  // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity. So it holds
+  // an event of an earlier batch, or none.
+  const uint slot = patch_id * push.capacity + cursor;
+  const uint64_t old = slots[slot];
+  const uint field_x = uint(push.field_x) + i * push.cell_x;  // fields may begin outside the sensor and wrap,
+  const uint field_y = uint(push.field_y) + j * push.cell_y;  // pixels of events never do
+  const uint x = (xy & 0xFFFF) - field_x;
+  const uint y = (xy >> 16) - field_y;
+  slots[slot] = packUint2x32(uvec2(word.x | pack_position(x, y), word.y));
+  const uint old_x = packed_x(uint(old));
+  const uint old_y = packed_y(uint(old));
+  if (old != kEmptySlot && is_active(old_x, old_y)) {
+    atomicAdd(counts[(field_y + old_y) * push.width + field_x + old_x], -1);
+  }
+  if (is_active(x, y)) atomicAdd(counts[(xy >> 16) * push.width + (xy & 0xFFFF)], 1);
+}
 
 void main() {
   const Lane lane = this_lane();
@@ -37,26 +70,13 @@ void main() {
       const uint rows = subgroupShuffle(own.rows, source);
       const uint xy = subgroupShuffle(own_xy, source);
       const uvec2 word = subgroupShuffle(own_word, source);
-      const uint x = (xy & 0xFFFF) - push.field_x;
-      const uint y = (xy >> 16) - push.field_y;
       const uint first_i = first_owned(columns & 0xFFFF, lane.x, kTeamX);
       const uint first_j = first_owned(rows & 0xFFFF, lane.y, kTeamY);
       for (uint r = 0; r < kLaneRows; ++r) {
         const uint j = first_j + r * kTeamY;
         for (uint c = 0; c < kLaneColumns; ++c) {
           const uint i = first_i + c * kTeamX;
-          if (i > columns >> 16 || j > rows >> 16) continue;
-          const uint patch_id = j * push.grid_x + i;
-          const uint cursor = table[lane.base + patch_id];
-          if (cursor == kCursorDead) continue;
-          if (cursor >= kCursorSkipOne) {
-            table[lane.base + patch_id] = cursor - kCursorSkipOne;
-            continue;
-          }
-          table[lane.base + patch_id] = cursor + 1 == push.capacity ? 0 : cursor + 1;
-          // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity.
-          slots[patch_id * push.capacity + cursor] =
-              packUint2x32(uvec2(word.x | pack_position(x - i * push.cell_x, y - j * push.cell_y), word.y));
+          if (i <= columns >> 16 && j <= rows >> 16) place_hit(lane, i, j, xy, word);
         }
       }
     }

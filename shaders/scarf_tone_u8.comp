@@ -1,5 +1,5 @@
 // SCARF, stage "tone": counts to 8-bit brightness, four pixels per word.
-// CPU twin: cpu_ref/stages/scarf_tone.cpp
+// CPU twin: scarf_tone() in cpu_ref/stages/stages.h
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "layout.h"

@@ -1,43 +1,24 @@
 #include "tools/frame_writer.h"
 
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "core/text.h"
+#include "io/atomic_file.h"
 #include "tools/files.h"
+#include "tools/pictures.h"
 
 namespace scarf::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string frame_name(uint64_t index) {
-  std::string digits = std::to_string(index);
-  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
-  return "frame_" + digits + ".png";
-}
-
-bool is_frame_name(const std::string& name) {
-  constexpr std::string_view kBegin = "frame_";
-  constexpr std::string_view kEnd = ".png";
-  if (!name.starts_with(kBegin) || !name.ends_with(kEnd)) return false;
-  const std::string digits = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
-  return digits.size() >= 6 && digits.find_first_not_of("0123456789") == std::string::npos;
-}
-
-Result<void> write_picture(const std::string& path, const cv::Mat& picture) {
-  std::vector<uint8_t> bytes;
-  if (!cv::imencode(fs::path(path).extension().string(), picture, bytes)) {
-    return Error{ErrorCode::io, text("OpenCV cannot encode ", path, "; install OpenCV with PNG and PGM")};
-  }
-  return write_file(path, bytes);
-}
+constexpr std::string_view kFrame = "frame";
 
 class FolderWriter final : public FrameWriter {
  public:
@@ -45,10 +26,10 @@ class FolderWriter final : public FrameWriter {
 
   Result<void> write(const Frame& frame, const cv::Mat& picture) override {
     list_ += text(index_, ",", frame.t, ",", frame.events, "\n");
-    return write_picture((folder_ / frame_name(index_++)).string(), picture);
+    return write_picture((folder_ / numbered_picture(kFrame, index_++)).string(), picture);
   }
 
-  Result<void> finish() override { return write_file((folder_ / "frames.csv").string(), list_); }
+  Result<void> finish() override { return write_file((folder_ / kPictureList).string(), list_); }
 
  private:
   const fs::path folder_;
@@ -69,12 +50,18 @@ class ImageWriter final : public FrameWriter {
 
 class VideoFileWriter final : public FrameWriter {
  public:
-  VideoFileWriter(const std::string& path, double fps) : path_(path), file_(path), fps_(fps) {}
+  VideoFileWriter(const std::string& path, double fps) : path_(path), file_(path), fps_(fps) {
+    // What goes wrong is told in one line, by the caller.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);  // AV_LOG_QUIET
+  }
 
   Result<void> write(const Frame&, const cv::Mat& picture) override {
     if (frames_ == 0 && !open(picture.size())) {
-      return Error{ErrorCode::io, text("OpenCV cannot write the video ", path_,
-                                       "; install OpenCV with FFmpeg, or give a folder for PNG frames")};
+      return Error{ErrorCode::io,
+                   text("OpenCV cannot write the video ", path_,
+                        "; check that its folder may be written and that OpenCV has FFmpeg, or "
+                        "give a folder for PNG frames")};
     }
     cv::Mat colours;
     cv::cvtColor(picture, colours, cv::COLOR_GRAY2BGR);  // not every encoder takes single-channel pictures
@@ -108,26 +95,11 @@ class VideoFileWriter final : public FrameWriter {
   }
 
   const std::string path_;
-  PendingFile file_;
+  AtomicFile file_;
   const double fps_;
   cv::VideoWriter video_;
   uint64_t frames_ = 0;
 };
-
-Result<std::unique_ptr<FrameWriter>> make_folder_writer(const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) return Error{ErrorCode::io, text("cannot make the folder ", path, ": ", error.message())};
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(path, error)) {
-    if (is_frame_name(entry.path().filename().string())) old.push_back(entry.path());
-  }
-  for (const fs::path& frame : old) {
-    if (!error) fs::remove(frame, error);
-  }
-  if (error) return Error{ErrorCode::io, text("cannot empty the folder ", path, ": ", error.message())};
-  return std::unique_ptr<FrameWriter>(std::make_unique<FolderWriter>(path));
-}
 
 // An early answer, before a long recording is worked through.
 Result<void> check_folder_of(const std::string& path) {
@@ -140,6 +112,7 @@ Result<void> check_folder_of(const std::string& path) {
 }  // namespace
 
 Result<OutputKind> output_kind(const std::string& path) {
+  if (path.empty()) return Error{ErrorCode::illegal_parameter, "the name of the output is empty"};
   std::error_code ignored;
   const std::string extension = fs::path(path).extension().string();
   if (extension.empty() || fs::is_directory(path, ignored))
@@ -154,7 +127,10 @@ Result<OutputKind> output_kind(const std::string& path) {
 
 Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
                                                        double video_fps) {
-  if (kind == OutputKind::folder) return make_folder_writer(path);
+  if (kind == OutputKind::folder) {
+    if (auto r = make_picture_folder(path, {kFrame}); !r) return r.error();
+    return std::unique_ptr<FrameWriter>(std::make_unique<FolderWriter>(path));
+  }
   if (auto r = check_folder_of(path); !r) return r.error();
   if (kind == OutputKind::image) return std::unique_ptr<FrameWriter>(std::make_unique<ImageWriter>(path));
   return std::unique_ptr<FrameWriter>(std::make_unique<VideoFileWriter>(path, video_fps));

@@ -11,6 +11,7 @@ namespace scarf::tools {
 namespace {
 
 constexpr uint64_t kMicroseconds = 1'000'000;  // per second
+constexpr size_t kMaxQuote = 40;               // characters of a line that is no time
 constexpr size_t kMaxDecimals = 6;             // of a frame rate: keeps the fraction within 64 bits
 
 __extension__ using Int128 = __int128;  // holds any number of frames times any step, so nothing overflows
@@ -160,8 +161,8 @@ Result<std::vector<int64_t>> read_times(const std::string& path) {
     if (line.empty()) continue;
     const auto t = parse_integer<int64_t>(line);
     if (!t) {
-      return Error{ErrorCode::bad_input,
-                   text(path, " line ", number, ": '", line, "' is not a whole number of microseconds")};
+      return Error{ErrorCode::bad_input, text(path, " line ", number, ": '", line.substr(0, kMaxQuote),
+                                              "' is not a whole number of microseconds")};
     }
     if (!times.empty() && *t < times.back()) {
       return Error{ErrorCode::bad_input, text(path, " line ", number, ": time ", *t,

@@ -71,4 +71,16 @@ Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const Pl
   return failed;
 }
 
+Result<void> write_prefix(const OpenAgain& open_again, SensorSize sensor, uint64_t events,
+                          const std::string& path) {
+  const auto source = open_again();
+  if (!source) return source.error();
+  const auto sink = create_events(path, WriteFormat::text, sensor);
+  if (!sink) return sink.error();
+  const auto write = [&](std::span<const Event> batch) { return (*sink)->write(batch); };
+  const auto played = play(**source, {.max_events = events}, {.events = write});
+  if (!played) return played.error();
+  return (*sink)->finish();
+}
+
 }  // namespace scarf::tools

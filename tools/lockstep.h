@@ -34,4 +34,9 @@ using OpenAgain = std::function<Result<std::unique_ptr<EventSource>>()>;
 Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const PlayOptions& options, Scarf& a,
                           Scarf& b, const SideNames& names);
 
+/// Writes the first `events` events of a recording as text, so that a failure can be told and tried again.
+/// Errors: whatever the recording returned; io.
+Result<void> write_prefix(const OpenAgain& open_again, SensorSize sensor, uint64_t events,
+                          const std::string& path);
+
 }  // namespace scarf::tools

@@ -1,4 +1,7 @@
 // The scarf program: parses the command line, runs a sub-command, tells errors in one line.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <exception>
 #include <iostream>
@@ -12,9 +15,17 @@ constexpr int kFailed = 1;    // the input, the device or the job
 constexpr int kBadUsage = 2;  // the command line
 
 int report(std::string message, int exit_code) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
+  // One line, whatever a hostile file or name had in it.
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }, ' ');
   std::cerr << "scarf: " << message << "\n";
   return exit_code;
+}
+
+// The exit code of a job that is done, unless what it printed was lost.
+int finished(int exit_code) {
+  std::cout.flush();
+  return std::cout ? exit_code : report("cannot write to standard output", kFailed);
 }
 
 int run(const scarf::tools::Command& command) {
@@ -23,9 +34,16 @@ int run(const scarf::tools::Command& command) {
     const bool usage = exit_code.error().code == scarf::ErrorCode::illegal_parameter;
     return report(exit_code.error().message, usage ? kBadUsage : kFailed);
   }
-  std::cout.flush();
-  if (!std::cout) return report("cannot write to standard output", kFailed);
-  return *exit_code;
+  return finished(*exit_code);
+}
+
+// A standard stream that the caller closed must not become the name of the next file that is opened: it is
+// taken by a file that refuses every use.
+void occupy_closed_streams() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(fd, F_GETFD) >= 0) continue;
+    if (open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
 }
 
 std::string help_command(const CLI::App& program) {
@@ -36,6 +54,7 @@ std::string help_command(const CLI::App& program) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_closed_streams();
   CLI::App program("Event-camera streams to velocity-invariant pictures", "scarf");
   program.set_version_flag("--version", "scarf " SCARF_VERSION);
   program.require_subcommand(0, 1);
@@ -53,9 +72,9 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
     if (command.run) return run(command);
     std::cout << program.help();
-    return kBadUsage;
+    return finished(kBadUsage);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) return finished(program.exit(e));  // --help, --version
     return report(std::string(e.what()) + "; see " + help_command(program), kBadUsage);
   } catch (const std::bad_alloc&) {
     return report("out of memory; use a larger --cell, or a smaller --batch", kFailed);

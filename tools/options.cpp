@@ -58,7 +58,8 @@ void add_stream_options(CLI::App& app, StreamOptions& o) {
       ->group(with_explicit);
   add_parsed_option(app, "--margin-hi", o.margin_hi, parse_comma, "X,Y: field behind the cell")
       ->group(with_explicit);
-  app.add_option("--capacity", o.capacity, "Events that a patch holds")->group(with_explicit);
+  add_parsed_option(app, "--capacity", o.capacity, parse_whole<int32_t>, "Events that a patch holds")
+      ->group(with_explicit);
 
   const std::string work = "Work";
   add_parsed_option(app, "--batch", o.batches, parse_batch_sizes,

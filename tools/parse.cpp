@@ -19,6 +19,13 @@ Result<Pair> parse_pair(const std::string& word, char separator, std::string_vie
 
 }  // namespace
 
+Result<uint64_t> parse_positive(const std::string& word) {
+  const auto value = parse_integer<uint64_t>(word);
+  if (value && *value > 0) return *value;
+  return Error{ErrorCode::illegal_parameter,
+               text("'", word, "' is not a whole number from 1 to ", std::numeric_limits<uint64_t>::max())};
+}
+
 Result<Pair> parse_by(const std::string& word) {
   return parse_pair(word, 'x', "WxH, such as 18x18");
 }

@@ -3,9 +3,12 @@
 
 #include <charconv>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "core/text.h"
 #include "scarf/event.h"
 #include "scarf/result.h"
 
@@ -19,6 +22,17 @@ std::optional<T> parse_integer(std::string_view word) {
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
 }
+
+/// The whole word as an integer. Errors: illegal_parameter, naming the range of T.
+template <class T>
+Result<T> parse_whole(const std::string& word) {
+  if (const auto value = parse_integer<T>(word)) return *value;
+  using Limits = std::numeric_limits<T>;
+  return Error{ErrorCode::illegal_parameter,
+               text("'", word, "' is not a whole number from ", Limits::min(), " to ", Limits::max())};
+}
+/// A number of things, at least 1. Errors: illegal_parameter.
+Result<uint64_t> parse_positive(const std::string& word);
 
 /// Two numbers of an option: one for each axis.
 struct Pair {

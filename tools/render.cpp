@@ -8,6 +8,7 @@
 #include "tools/commands.h"
 #include "tools/frame_writer.h"
 #include "tools/options.h"
+#include "tools/pictures.h"
 #include "tools/play.h"
 #include "tools/progress.h"
 #include "tools/window_comparison.h"
@@ -18,6 +19,8 @@ namespace {
 constexpr size_t kFramesInFlight = 4;          // enough for a device to work while earlier frames are encoded
 constexpr int64_t kDefaultWindow = 33;         // milliseconds: one frame at 30 Hz
 constexpr int64_t kMaxWindow = 1'000'000'000;  // milliseconds: 11 days
+constexpr double kMinVideoFps = 0.1;
+constexpr double kMaxVideoFps = 1000;
 
 struct RenderOptions {
   StreamOptions stream;
@@ -48,6 +51,10 @@ Result<void> check(const RenderOptions& options, OutputKind kind) {
   if (options.video_fps && kind != OutputKind::video) {
     return illegal(
         "--video-fps is used by videos only; leave it out, or give an output that ends in .mp4 or .avi");
+  }
+  if (options.video_fps && !(*options.video_fps >= kMinVideoFps && *options.video_fps <= kMaxVideoFps)) {
+    return illegal(
+        text("--video-fps is ", *options.video_fps, ", legal is ", kMinVideoFps, " to ", kMaxVideoFps));
   }
   if (options.window && std::filesystem::path(options.output).extension() == ".pgm") {
     return illegal("--compare-window is not offered for .pgm; use a .png, a folder or a video");
@@ -169,9 +176,9 @@ void add_render(CLI::App& program, Command& command) {
   CLI::Option* rate = add_parsed_option(*app, "--rate", options->rate, parse_frame_rate,
                                         "Frames per second of recorded time, default 30")
                           ->group(when);
-  CLI::Option* every = app->add_option("--every", options->every, "A frame after every N events")
-                           ->check(CLI::PositiveNumber)
-                           ->group(when);
+  CLI::Option* every =
+      add_parsed_option(*app, "--every", options->every, parse_positive, "A frame after every N events")
+          ->group(when);
   CLI::Option* at = app->add_option("--at", options->at, "end: one frame of the final state")
                         ->check(CLI::IsMember({"end"}))
                         ->group(when);
@@ -180,13 +187,11 @@ void add_render(CLI::App& program, Command& command) {
   rate->excludes(every)->excludes(at)->excludes(times);
   every->excludes(at)->excludes(times);
   at->excludes(times);
-  app->add_option("--max-frames", options->max_frames,
-                  "Most frames that one gap in the recording may make due")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str()
+  add_parsed_option(*app, "--max-frames", options->max_frames, parse_positive,
+                    "Most frames that one gap in the recording may make due")
+      ->default_str(text(options->max_frames))
       ->group(when);
-  app->add_option("--video-fps", options->video_fps, "Speed at which a video is shown, default 30")
-      ->check(CLI::Range(0.1, 1000.0));
+  app->add_option("--video-fps", options->video_fps, "Speed at which a video is shown, default 30");
   app->add_option_function<int64_t>(
          "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },
          "Beside each frame: the events of the last MS milliseconds, default 33")

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 
 #include "core/text.h"
@@ -12,6 +11,7 @@
 #include "tools/files.h"
 #include "tools/options.h"
 #include "tools/parse.h"
+#include "tools/pictures.h"
 
 namespace scarf::tools {
 namespace {
@@ -19,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxTruthRate = 10'000;
+constexpr std::string_view kFrame = "frame";
+constexpr std::string_view kEdges = "edges";
 
 struct SimulateOptions {
   std::string output;
@@ -45,32 +47,21 @@ Result<WriteFormat> format_of(const SimulateOptions& options) {
                                                   "or text, or end the name in .raw, .txt or .csv")};
 }
 
-Result<void> write_png(const fs::path& path, Image<uint8_t> image) {
-  std::vector<uint8_t> bytes;
-  if (!cv::imencode(".png", cv::Mat(image.height, image.width, CV_8UC1, image.pixels.data()), bytes)) {
-    return Error{ErrorCode::io, text("OpenCV cannot encode ", path.string(), "; install OpenCV with PNG")};
-  }
-  return write_file(path.string(), bytes);
-}
-
-// Frames and outlines at the truth rate, from time 0 to the end.
+// Frames and outlines at the truth rate, from time 0 to the end, into a folder that is there.
 Result<void> write_truth(const SimulateOptions& options, const Simulation& simulation) {
   const fs::path folder = options.truth;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    return Error{ErrorCode::io, text("cannot make the folder ", options.truth, ": ", error.message())};
   std::string list = "index,t_us\n";
   for (int64_t i = 0;; ++i) {
     const auto t = static_cast<int64_t>(static_cast<double>(i) * 1e6 / options.truth_rate);
     if (t > simulation.duration()) break;
-    std::string number = std::to_string(i);
-    if (number.size() < 6) number.insert(0, 6 - number.size(), '0');
-    if (auto r = write_png(folder / ("frame_" + number + ".png"), simulation.frame(t)); !r) return r;
-    if (auto r = write_png(folder / ("edges_" + number + ".png"), simulation.edges(t)); !r) return r;
+    const auto write = [&](std::string_view name, const Image<uint8_t>& image) {
+      return write_picture((folder / numbered_picture(name, i)).string(), as_picture(image));
+    };
+    if (auto r = write(kFrame, simulation.frame(t)); !r) return r;
+    if (auto r = write(kEdges, simulation.edges(t)); !r) return r;
     list += text(i, ",", t, "\n");
   }
-  return write_file((folder / "frames.csv").string(), list);
+  return write_file((folder / kPictureList).string(), list);
 }
 
 Result<int> simulate(const SimulateOptions& options) {
@@ -83,22 +74,25 @@ Result<int> simulate(const SimulateOptions& options) {
                  text("truth rate is ", options.truth_rate, ", legal is above 0, up to ", kMaxTruthRate)};
   }
 
-  const bool to_stdout = options.output == "-";
-  const auto sink =
-      create_events(to_stdout ? "/dev/stdout" : options.output, *format, options.simulation.sensor);
+  // What cannot be created is told before the work is done.
+  const auto sink = create_events(options.output, *format, options.simulation.sensor);
   if (!sink) return sink.error();
+  if (!options.truth.empty()) {
+    if (auto r = make_picture_folder(options.truth, {kFrame, kEdges}); !r) return r.error();
+  }
   uint64_t events = 0;
   while (!(*simulation)->finished()) {
     const auto step = (*simulation)->next();
     if (auto r = (*sink)->write(step); !r) return r.error();
     events += step.size();
   }
-  if (auto r = (*sink)->finish(); !r) return r.error();
   if (!options.truth.empty()) {
     if (auto r = write_truth(options, **simulation); !r) return r.error();
   }
+  if (auto r = (*sink)->finish(); !r) return r.error();
   const double seconds = static_cast<double>((*simulation)->duration()) / 1e6;
-  (to_stdout ? std::cerr : std::cout)
+  // Standard output may be the recording.
+  (options.output == "-" ? std::cerr : std::cout)
       << text(events, " events, ", seconds, " s, ", static_cast<double>(events) / seconds / 1e6, " Mev/s\n");
   return 0;
 }
@@ -122,12 +116,15 @@ void add_simulate(CLI::App& program, Command& command) {
   app->add_option("--threshold", o.threshold, "Change of log intensity per event")->capture_default_str();
   app->add_option("--mismatch", o.mismatch, "Spread of the pixels' thresholds, relative")
       ->capture_default_str();
-  app->add_option("--refractory", o.refractory_us, "Microseconds a pixel is blind after an event")
-      ->capture_default_str();
+  add_parsed_option(*app, "--refractory", o.refractory_us, parse_whole<int64_t>,
+                    "Microseconds a pixel is blind after an event")
+      ->default_str(text(o.refractory_us));
   app->add_option("--noise", o.noise_hz, "Noise events per pixel and second")->capture_default_str();
-  app->add_option("--hot-pixels", o.hot_pixels, "Number of pixels that fire all the time")
-      ->capture_default_str();
-  app->add_option("--seed", o.seed, "Seed of the sensor's imperfections")->capture_default_str();
+  add_parsed_option(*app, "--hot-pixels", o.hot_pixels, parse_whole<int32_t>,
+                    "Number of pixels that fire all the time")
+      ->default_str(text(o.hot_pixels));
+  add_parsed_option(*app, "--seed", o.seed, parse_whole<uint64_t>, "Seed of the sensor's imperfections")
+      ->default_str(text(o.seed));
   app->add_option("--truth", options->truth, "Folder for PNG frames and masks of the true outlines");
   app->add_option("--truth-rate", options->truth_rate, "Frames per second of --truth")->capture_default_str();
   app->callback([&command, options] { command.run = [options] { return simulate(*options); }; });

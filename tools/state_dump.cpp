@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <string_view>
 
+#include "core/little_endian.h"
 #include "core/text.h"
+#include "io/byte_writer.h"
 #include "scarf/digest.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -16,13 +16,6 @@ constexpr std::string_view kMagic = "SCARFST1";
 constexpr size_t kIntegers = 13;
 constexpr size_t kHeaderBytes = kMagic.size() + kIntegers * sizeof(int32_t);
 constexpr size_t kSlotBytes = 14;
-
-template <std::integral T>
-T little_endian(const uint8_t* bytes) {
-  uint64_t value = 0;
-  for (size_t i = 0; i < sizeof(T); ++i) value |= uint64_t{bytes[i]} << (8 * i);
-  return static_cast<T>(value);
-}
 
 std::array<int32_t, kIntegers> integers_of(const Geometry& g) {
   return {g.x.size, g.y.size,      g.x.cell,      g.y.cell,      g.x.origin,    g.y.origin, g.x.grid,
@@ -36,17 +29,16 @@ Geometry geometry_of(const std::array<int32_t, kIntegers>& v) {
 }  // namespace
 
 Result<void> write_state_dump(const std::string& path, const Snapshot& snapshot) {
-  std::vector<uint8_t> bytes(kMagic.begin(), kMagic.end());
-  for (const int32_t integer : integers_of(snapshot.geometry)) {
-    for (int shift = 0; shift < 32; shift += 8) {
-      bytes.push_back(static_cast<uint8_t>(static_cast<uint32_t>(integer) >> shift));
-    }
-  }
+  auto file = ByteWriter::create(path);
+  if (!file) return file.error();
+  file->append(kMagic);
+  for (const int32_t integer : integers_of(snapshot.geometry)) file->append_word(integer);
   for (size_t patch = 0; patch < snapshot.totals.size(); ++patch) {
     const std::vector<uint8_t> hashed = state_bytes(snapshot, patch);
-    bytes.insert(bytes.end(), hashed.begin(), hashed.end());
+    file->append({reinterpret_cast<const char*>(hashed.data()), hashed.size()});
+    if (auto r = file->flush_if_large(); !r) return r;
   }
-  return write_file(path, bytes);
+  return file->finish();
 }
 
 Result<StateDump> StateDump::open(const std::string& path) {
@@ -59,7 +51,7 @@ Result<StateDump> StateDump::open(const std::string& path) {
   }
   std::array<int32_t, kIntegers> integers{};
   for (size_t i = 0; i < kIntegers; ++i) {
-    integers[i] = little_endian<int32_t>(&header[kMagic.size() + i * sizeof(int32_t)]);
+    integers[i] = load_little_endian<int32_t>(&header[kMagic.size() + i * sizeof(int32_t)]);
   }
   const auto geometry = checked_geometry(geometry_of(integers));
   if (!geometry)
@@ -73,7 +65,7 @@ Result<DumpedPatch> StateDump::next() {
   std::array<uint8_t, 8> total{};
   file_.read(reinterpret_cast<char*>(total.data()), total.size());
   DumpedPatch patch;
-  patch.total = little_endian<uint64_t>(total.data());
+  patch.total = load_little_endian<uint64_t>(total.data());
   patch.slots.resize(std::min<uint64_t>(patch.total, geometry_.capacity));
   std::vector<uint8_t> bytes(patch.slots.size() * kSlotBytes);
   file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -85,9 +77,9 @@ Result<DumpedPatch> StateDump::next() {
   for (size_t slot = 0; slot < patch.slots.size(); ++slot) {
     const uint8_t* b = &bytes[slot * kSlotBytes];
     Event& e = patch.slots[slot];
-    e = {.t = little_endian<int64_t>(b + 6),
-         .x = little_endian<uint16_t>(b),
-         .y = little_endian<uint16_t>(b + 2),
+    e = {.t = load_little_endian<int64_t>(b + 6),
+         .x = load_little_endian<uint16_t>(b),
+         .y = load_little_endian<uint16_t>(b + 2),
          .p = b[4]};
     if (b[5] != (geometry_.x.active(e.x, column) && geometry_.y.active(e.y, row))) {
       return Error{ErrorCode::bad_input,

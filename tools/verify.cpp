@@ -1,7 +1,6 @@
 // scarf verify: the CPU reference and the device on the same stream, compared after every batch.
 #include <filesystem>
 #include <iostream>
-#include <vector>
 
 #include "core/text.h"
 #include "tools/commands.h"
@@ -16,17 +15,6 @@ struct VerifyOptions {
   std::optional<uint64_t> max_events;
   std::string failing;  ///< where the failing prefix goes
 };
-
-Result<void> write_prefix(const VerifyOptions& options, uint64_t events) {
-  auto recording = open_recording(options.stream);
-  if (!recording) return recording.error();
-  auto sink = create_events(options.failing, WriteFormat::text, recording->geometry.sensor());
-  if (!sink) return sink.error();
-  const auto write = [&](std::span<const Event> batch) { return (*sink)->write(batch); };
-  const auto played = play(*recording->source, {.max_events = events}, {.events = write});
-  if (!played) return played.error();
-  return (*sink)->finish();
-}
 
 Result<int> verify(const VerifyOptions& options) {
   if (options.stream.cpu) {
@@ -62,7 +50,9 @@ Result<int> verify(const VerifyOptions& options) {
   const Lockstep failed = shortest_failure(*std::move(run), open_again, play_options, a, b, names);
   std::cout << text("different after ", failed.events, " events, ", failed.batches,
                     " batches: ", *failed.difference, "\n");
-  if (auto r = write_prefix(options, failed.events); !r) return r.error();
+  if (auto r = write_prefix(open_again, recording->geometry.sensor(), failed.events, options.failing); !r) {
+    return r.error();
+  }
   std::cout << text("failing prefix: ", options.failing, "\n");
   return 1;
 }
@@ -73,7 +63,8 @@ void add_verify(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("verify", "Compare a device with the CPU reference, batch by batch");
   auto options = std::make_shared<VerifyOptions>();
   add_stream_options(*app, options->stream);
-  app->add_option("--max-events", options->max_events, "Stop after so many events");
+  add_parsed_option(*app, "--max-events", options->max_events, parse_whole<uint64_t>,
+                    "Stop after so many events");
   app->add_option("--failing", options->failing,
                   "Text recording for the failing prefix, default NAME.failing.txt in the current folder");
   app->callback([&command, options] {

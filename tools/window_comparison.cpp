@@ -43,10 +43,6 @@ cv::Mat TimeWindow::picture(int64_t t) const {
   return picture;
 }
 
-cv::Mat as_picture(const Image<uint8_t>& image) {
-  return {image.height, image.width, CV_8UC1, const_cast<uint8_t*>(image.pixels.data())};
-}
-
 cv::Mat side_by_side(const cv::Mat& left, const std::string& left_label, const cv::Mat& right,
                      const std::string& right_label) {
   cv::Mat canvas(kLabelHeight + left.rows, left.cols + kGap + right.cols, CV_8UC1, cv::Scalar(64));

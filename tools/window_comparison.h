@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scarf/event.h"
-#include "scarf/image.h"
 
 namespace scarf::tools {
 
@@ -28,9 +27,6 @@ class TimeWindow {
   std::vector<int64_t> newest_;  // row-major
   std::vector<bool> seen_;
 };
-
-/// The pixels of an image with one plane, not copied: the image must outlive the result.
-cv::Mat as_picture(const Image<uint8_t>& image);
 
 /// Two pictures of one size beside each other, each under its label. Their pixels are unchanged.
 cv::Mat side_by_side(const cv::Mat& left, const std::string& left_label, const cv::Mat& right,

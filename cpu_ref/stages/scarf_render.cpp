@@ -7,7 +7,6 @@ namespace scarf::stages {
 void scarf_render(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
                   std::span<int32_t> counts, const layout::PatchPush& push) {
   const size_t plane = size_t{push.width} * push.height;
-  if (push.slot_begin == 0) std::fill(counts.begin(), counts.begin() + 2 * plane, 0);
   for (uint32_t patch = 0; patch < push.patches; ++patch) {
     const uint64_t end = std::min<uint64_t>(push.slot_end, filled_slots(totals[patch], push));
     for (uint64_t s = push.slot_begin; s < end; ++s) {

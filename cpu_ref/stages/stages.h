@@ -23,11 +23,11 @@ void scarf_scan(std::span<uint32_t> table, std::span<uint32_t> heads, std::span<
 /// surviving hit. The twin of place needs no such flags: dead hits are dead without them.
 void scarf_prune(std::span<const uint32_t> table, std::span<uint32_t> alive, const layout::PrunePush& push);
 
-/// shaders/scarf_place.comp: stores the hits that survive the batch.
+/// shaders/scarf_place.comp: stores the hits that survive the batch, and keeps the count image.
 void scarf_place(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
-                 std::span<uint64_t> slots, const layout::BatchPush& push);
+                 std::span<uint64_t> slots, std::span<int32_t> counts, const layout::BatchPush& push);
 
-/// shaders/scarf_render.comp: counts the active events of slots push.slot_begin .. push.slot_end - 1.
+/// shaders/scarf_render.comp: adds the active events of slots push.slot_begin .. push.slot_end - 1.
 void scarf_render(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
                   std::span<int32_t> counts, const layout::PatchPush& push);
 

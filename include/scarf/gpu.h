@@ -35,8 +35,9 @@ struct DeviceOptions {
   /// A CPU device (such as lavapipe) is an error. Also set by a non-empty environment variable
   /// SCARF_REQUIRE_GPU.
   bool require_gpu = false;
-  /// How events reach the device: automatic writes into device memory where the host can, and copies
-  /// elsewhere; the others force a path, so that each can be tested on any device.
+  /// How events reach the device. automatic: shaders read the staging memory itself where that is device
+  /// memory which the host also reads fast; elsewhere events are copied, by a transfer queue if there is one.
+  /// The others force a path, so that each can be tested on any device.
   enum class Upload { automatic, staged, transfer_queue } upload = Upload::automatic;
   /// Khronos validation layers on; every message is collected by GpuContext::validation_messages().
   bool validation = false;
@@ -94,8 +95,9 @@ struct StageTime {
 class GpuScarf : public Scarf {
  public:
   /// Staging memory for n events (up to max_acquire()), to be filled in place: the first `count` of them
-  /// become the next batch at commit(). Acquire and commit belong to the pushing thread, and alternate.
-  /// Errors: illegal_parameter if n is above max_acquire(), would_block as in push.
+  /// become the next batch at commit(). Acquire and commit belong to the pushing thread, and alternate; a
+  /// reset() between them makes them the first batch of the new stream. Errors: illegal_parameter if n is
+  /// above max_acquire(), would_block as in push.
   virtual Result<std::span<Event>> acquire(size_t n) = 0;
   virtual Result<PushReport> commit(size_t count) = 0;
   virtual size_t max_acquire() const = 0;

@@ -15,12 +15,12 @@ namespace scarf {
 
 /// What a reader met so far.
 struct ReadReport {
-  uint64_t events = 0;             ///< events handed out (inside the sensor)
-  uint64_t outside = 0;            ///< events outside the sensor (or beyond uint16_t): counted and dropped
-  uint64_t back_steps = 0;         ///< events (outside ones included) older than the event before them
-  int64_t largest_back_step = 0;   ///< microseconds
-  uint64_t unknown_words = 0;      ///< words or lines that the format does not define
-  uint64_t truncated_bytes = 0;    ///< bytes at the end that do not make a whole word or line
+  uint64_t events = 0;            ///< events handed out (inside the sensor)
+  uint64_t outside = 0;           ///< events outside the sensor (or beyond uint16_t): counted and dropped
+  uint64_t back_steps = 0;        ///< events (outside ones included) older than the event before them
+  int64_t largest_back_step = 0;  ///< microseconds
+  uint64_t unknown_words = 0;     ///< words or lines that the format does not define
+  uint64_t truncated_bytes = 0;   ///< bytes at the end that do not make a whole word or line
 };
 
 struct ReadOptions {
@@ -46,9 +46,9 @@ class EventSource {
   virtual uint64_t bytes_total() const = 0;
 };
 
-/// Opens a recording; "-" is standard input. The format is recognised by content, not by name: Prophesee RAW in
-/// EVT2 and EVT3, with or without its header, and text lines `t x y p` with t in seconds.
-/// Errors: io (cannot open), bad_input (not recognised, the sensor disagrees with `options`), illegal_parameter
+/// Opens a recording; "-" is standard input. The format is recognised by content, not by name: Prophesee RAW
+/// in EVT2 and EVT3, with or without its header, and text lines `t x y p` with t in seconds. Errors: io
+/// (cannot open), bad_input (not recognised, the sensor disagrees with `options`), illegal_parameter
 /// (`options` names a size outside 1..16,384).
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options = {});
 
@@ -61,16 +61,18 @@ enum class WriteFormat { evt2, evt3, text };
 class EventSink {
  public:
   virtual ~EventSink() = default;
-  /// Errors: io; bad_input for an event that the format cannot hold (naming it): one outside the sensor, and in
-  /// EVT2 and EVT3 a back-step, a coordinate above 2047, or a time below 0 or beyond 4096 turns of the format's
-  /// clock (2^46 us, 2^36 us). The events before it are written.
+  /// Errors: io; bad_input for an event that the format cannot hold (naming it): one outside the sensor, and
+  /// in EVT2 and EVT3 a back-step, a coordinate above 2047, or a time below 0 or beyond 4096 turns of the
+  /// format's clock (2^46 us, 2^36 us). The events before it are written.
   virtual Result<void> write(std::span<const Event> events) = 0;
-  /// Completes the file. An EventSink destroyed without finish() leaves an incomplete file.
+  /// Completes the file. It is written beside its place and appears there now; destroyed without finish(), an
+  /// EventSink leaves no file.
   virtual Result<void> finish() = 0;
 };
 
-/// Creates a recording. EVT2 and EVT3 are Prophesee RAW files with a header that names the sensor size; text is
-/// `t x y p` with t in seconds and a first line `width height`.
-Result<std::unique_ptr<EventSink>> create_events(const std::string& path, WriteFormat format, SensorSize sensor);
+/// Creates or replaces a recording; "-" is standard output. EVT2 and EVT3 are Prophesee RAW files with a
+/// header that names the sensor size; text is `t x y p` with t in seconds and a first line `width height`.
+Result<std::unique_ptr<EventSink>> create_events(const std::string& path, WriteFormat format,
+                                                 SensorSize sensor);
 
 }  // namespace scarf

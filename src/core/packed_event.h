@@ -14,6 +14,9 @@ inline constexpr int kPackedYShift = 7;
 inline constexpr int kPackedPolarityShift = 14;
 inline constexpr int kPackedTimeShift = 15;
 
+// An empty slot: the time -2^48, which check_batch refuses.
+inline constexpr uint64_t kEmptySlot = uint64_t{1} << 63;
+
 inline uint64_t pack(const Event& e, int32_t field_x, int32_t field_y, int64_t t_first) {
   return static_cast<uint64_t>(e.x - field_x) | static_cast<uint64_t>(e.y - field_y) << kPackedYShift |
          static_cast<uint64_t>(e.p) << kPackedPolarityShift |

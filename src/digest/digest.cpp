@@ -2,17 +2,9 @@
 
 #include <openssl/evp.h>
 
-#include <concepts>
+#include "core/little_endian.h"
 
 namespace scarf {
-namespace {
-
-template <std::unsigned_integral T>
-void append(std::vector<uint8_t>& out, T value) {
-  for (size_t i = 0; i < sizeof(T); ++i) out.push_back(static_cast<uint8_t>(value >> (8 * i)));
-}
-
-}  // namespace
 
 struct Digest::Impl {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
@@ -45,10 +37,10 @@ std::string Digest::hex() {
 }
 
 void EventDigest::add(const Event& event) {
-  append(buffer_, static_cast<uint64_t>(event.t));
-  append(buffer_, event.x);
-  append(buffer_, event.y);
-  append(buffer_, event.p);
+  append_little_endian(buffer_, static_cast<uint64_t>(event.t));
+  append_little_endian(buffer_, event.x);
+  append_little_endian(buffer_, event.y);
+  append_little_endian(buffer_, event.p);
   if (buffer_.size() >= 64 * 1024) flush();
 }
 
@@ -69,13 +61,13 @@ std::vector<uint8_t> state_bytes(const Snapshot& snapshot, size_t patch) {
   const int64_t filled = snapshot.filled(patch);
   std::vector<uint8_t> bytes;
   bytes.reserve(8 + 14 * filled);
-  append(bytes, snapshot.totals[patch]);
+  append_little_endian(bytes, snapshot.totals[patch]);
   for (const Event& e : snapshot.ring(patch).first(filled)) {
-    append(bytes, e.x);
-    append(bytes, e.y);
-    append(bytes, e.p);
-    append(bytes, static_cast<uint8_t>(g.x.active(e.x, i) && g.y.active(e.y, j)));
-    append(bytes, static_cast<uint64_t>(e.t));
+    append_little_endian(bytes, e.x);
+    append_little_endian(bytes, e.y);
+    append_little_endian(bytes, e.p);
+    append_little_endian(bytes, static_cast<uint8_t>(g.x.active(e.x, i) && g.y.active(e.y, j)));
+    append_little_endian(bytes, static_cast<uint64_t>(e.t));
   }
   return bytes;
 }

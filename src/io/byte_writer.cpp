@@ -18,19 +18,31 @@ Error system_error(const std::string& path, const char* what) {
 
 }  // namespace
 
-ByteWriter::ByteWriter(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
+ByteWriter::ByteWriter(int fd, std::string path, std::unique_ptr<AtomicFile> file)
+    : fd_(fd), path_(std::move(path)), file_(std::move(file)) {}
 
 ByteWriter::ByteWriter(ByteWriter&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), path_(std::move(other.path_)), buffer_(std::move(other.buffer_)) {}
+    : fd_(std::exchange(other.fd_, -1)),
+      path_(std::move(other.path_)),
+      file_(std::move(other.file_)),
+      buffer_(std::move(other.buffer_)) {}
 
 ByteWriter::~ByteWriter() {
   if (fd_ >= 0) close(fd_);
 }
 
 Result<ByteWriter> ByteWriter::create(const std::string& path) {
-  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  auto file = std::make_unique<AtomicFile>(path);
+  const int fd = open(file->name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd < 0) return system_error(path, "cannot create");
-  return ByteWriter(fd, path);
+  return ByteWriter(fd, path, std::move(file));
+}
+
+Result<ByteWriter> ByteWriter::standard_output() {
+  const std::string name = "standard output";
+  const int fd = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  if (fd < 0) return system_error(name, "cannot write");
+  return ByteWriter(fd, name, nullptr);
 }
 
 Result<void> ByteWriter::flush() {
@@ -50,7 +62,7 @@ Result<void> ByteWriter::flush() {
 Result<void> ByteWriter::finish() {
   if (const auto flushed = flush(); !flushed) return flushed;
   if (close(std::exchange(fd_, -1)) != 0) return system_error(path_, "cannot close");
-  return {};
+  return file_ ? file_->put_in_place() : Result<void>();
 }
 
 }  // namespace scarf

@@ -11,7 +11,7 @@ Result<std::unique_ptr<EventSink>> create_events(const std::string& path, WriteF
                                                  SensorSize sensor) {
   const auto legal = checked_sensor(sensor.width, sensor.height, text(path, ": the sensor size given"));
   if (!legal) return Error{ErrorCode::illegal_parameter, legal.error().message};
-  auto output = ByteWriter::create(path);
+  auto output = path == "-" ? ByteWriter::standard_output() : ByteWriter::create(path);
   if (!output) return output.error();
   switch (format) {
     case WriteFormat::evt2:

@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "core/little_endian.h"
 #include "io/buffered_source.h"
 #include "io/evt2.h"
-#include "io/load_word.h"
 #include "io/word_check.h"
 
 namespace scarf {
@@ -55,7 +55,7 @@ BufferedSource::Decoded Evt2Reader::decode(std::span<const uint8_t> bytes, bool 
   size_t count = 0;
   size_t at = 0;
   for (; count < out.size() && at + 4 <= bytes.size(); at += 4) {
-    const auto word = load_word<uint32_t>(bytes.data() + at);
+    const auto word = load_little_endian<uint32_t>(bytes.data() + at);
     const uint32_t type = word >> 28;
     if (s.skip > 0) [[unlikely]] {
       --s.skip;
@@ -81,7 +81,7 @@ std::unique_ptr<EventSource> make_evt2_reader(ByteReader input, std::string name
 bool looks_like_evt2(std::span<const uint8_t> bytes) {
   WordCheck<evt2::kTimeHighBits> check;
   for (size_t at = 0; at + 4 <= bytes.size(); at += 4) {
-    const auto word = load_word<uint32_t>(bytes.data() + at);
+    const auto word = load_little_endian<uint32_t>(bytes.data() + at);
     switch (word >> 28) {
       case evt2::kOff:
       case evt2::kOn:

@@ -4,9 +4,9 @@
 #include <bit>
 #include <utility>
 
+#include "core/little_endian.h"
 #include "io/buffered_source.h"
 #include "io/evt3.h"
-#include "io/load_word.h"
 #include "io/word_check.h"
 
 namespace scarf {
@@ -78,13 +78,13 @@ BufferedSource::Decoded Evt3Reader::decode(std::span<const uint8_t> bytes, bool 
   State s = state_;
   size_t at = 0;
   while (!s.started && at + 2 <= bytes.size()) {
-    const uint32_t word = load_word<uint16_t>(bytes.data() + at);
+    const uint32_t word = load_little_endian<uint16_t>(bytes.data() + at);
     at += 2;
     if (word >> 12 == evt3::kTimeHigh) s.set_time_high(word & evt3::kPayloadMask);
   }
   size_t count = s.write_vector(out);
   for (; count < out.size() && at + 2 <= bytes.size(); at += 2) {
-    const uint32_t word = load_word<uint16_t>(bytes.data() + at);
+    const uint32_t word = load_little_endian<uint16_t>(bytes.data() + at);
     const uint32_t type = word >> 12;
     // Rows, columns and times come in an order that no branch predictor learns: hence without a branch.
     constexpr uint32_t kSingles = 1 << evt3::kAddrY | 1 << evt3::kAddrX | 1 << evt3::kTimeLow;
@@ -142,7 +142,7 @@ std::unique_ptr<EventSource> make_evt3_reader(ByteReader input, std::string name
 bool looks_like_evt3(std::span<const uint8_t> bytes) {
   WordCheck<evt3::kTimeHighBits> check;
   for (size_t at = 0; at + 2 <= bytes.size(); at += 2) {
-    const uint32_t word = load_word<uint16_t>(bytes.data() + at);
+    const uint32_t word = load_little_endian<uint16_t>(bytes.data() + at);
     switch (word >> 12) {
       case evt3::kAddrX:
       case evt3::kVect12:

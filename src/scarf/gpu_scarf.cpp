@@ -216,7 +216,6 @@ class Stream : public std::enable_shared_from_this<Stream> {
     StagingSlot& open = staging_[open_];
     open.begin = open.fill;
     t_first_.reset();
-    rendered_mode_.reset();
     failure_.reset();
     return {};
   }
@@ -231,18 +230,17 @@ class Stream : public std::enable_shared_from_this<Stream> {
     if (auto r = begin(c); !r) return r.error();
     const uint32_t planes = planes_of(mode);
     const uint64_t bytes = uint64_t{planes} * geometry_.x.size * geometry_.y.size * sizeof(T);
-    pipeline_->record_render(c, mode, rendered_mode_ != mode);
-    const Buffer* picture = &pipeline_->picture();
-    if constexpr (std::is_same_v<T, uint8_t>)
-      pipeline_->record_tone_u8(c, planes);
-    else if constexpr (std::is_same_v<T, float>)
-      pipeline_->record_tone_float(c, planes);
-    else
-      picture = &pipeline_->counts();
-    c.copy(*picture, 0, (*query)->result, 0, bytes);
+    const auto record = [&]() -> const Buffer& {
+      if constexpr (std::is_same_v<T, uint8_t>)
+        return pipeline_->record_u8(c, mode);
+      else if constexpr (std::is_same_v<T, float>)
+        return pipeline_->record_float(c, mode);
+      else
+        return pipeline_->record_counts(c, mode);
+    };
+    c.copy(record(), 0, (*query)->result, 0, bytes);
     c.mark("copy");
     if (auto r = submit(c); !r) return r.error();
-    rendered_mode_ = mode;
     return pending<Image<T>>(image_pool_, std::move(*query), [g = geometry_, planes, bytes](ImageQuery& q) {
       Image<T> image(g.x.size, g.y.size, static_cast<int32_t>(planes));
       std::memcpy(image.pixels.data(), q.result.mapped(), bytes);
@@ -549,7 +547,6 @@ class Stream : public std::enable_shared_from_this<Stream> {
   size_t open_ = 0;                 // the staging slot that gathers events
   std::optional<size_t> acquired_;  // events handed out by acquire, behind the gathered ones
   std::optional<int64_t> t_first_;
-  std::optional<PolarityMode> rendered_mode_;  // what the count image on the device shows
   std::optional<Error> failure_;
   uint64_t last_submission_ = 0;  // places in the timelines of the two queues
   uint64_t last_transfer_ = 0;

@@ -45,18 +45,6 @@ Result<Buffer> host_buffer(const vulkan::Device& device, const char* name, std::
   return buffer;
 }
 
-uint32_t image_mode(PolarityMode mode) {
-  switch (mode) {
-    case PolarityMode::merged:
-      return layout::kModeMerged;
-    case PolarityMode::separate:
-      return layout::kModeSeparate;
-    case PolarityMode::difference:
-      return layout::kModeDifference;
-  }
-  return layout::kModeMerged;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<ScarfPipeline>> ScarfPipeline::create(vulkan::Device& device, const Geometry& geometry,
@@ -82,8 +70,8 @@ Result<void> ScarfPipeline::create_buffers(vulkan::Device& device, const Levels&
       {alive_, "the table of chunks and surviving events", plan_.table_words() * kWord},
       {heads_, "the ring heads", patches * kWord},
       {totals_, "the totals", patches * 8},
-      {rendered_, "the totals drawn", patches * 8},
-      {counts_, "the count image (two planes)", 2 * pixels(geometry_) * kWord},
+      {counts_, "the count image", pixels(geometry_) * kWord},
+      {polarity_counts_, "the count image by polarity (two planes)", 2 * pixels(geometry_) * kWord},
       {picture_, "the image (two planes)", 2 * pixels(geometry_) * kWord},
       {cursors_, "the places of extracted events", patches * kWord},
   };
@@ -115,8 +103,9 @@ Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
       {integrate_, "scarf_integrate", shaders::scarf_integrate, 1, sizeof(layout::IntegratePush), {}},
       {scan_, "scarf_scan", shaders::scarf_scan, 3, sizeof(layout::ScanPush), {}},
       {prune_, "scarf_prune", shaders::scarf_prune, 2, sizeof(layout::PrunePush), {}},
-      {place_, "scarf_place", shaders::scarf_place, 5, sizeof(layout::BatchPush), team},
-      {render_, "scarf_render", shaders::scarf_render, 4, sizeof(layout::PatchPush), {}},
+      {clear_, "scarf_clear", shaders::scarf_clear, 1, sizeof(layout::ClearPush), {}},
+      {place_, "scarf_place", shaders::scarf_place, 6, sizeof(layout::BatchPush), team},
+      {render_, "scarf_render", shaders::scarf_render, 3, sizeof(layout::PatchPush), {}},
       {tone_u8_, "scarf_tone_u8", shaders::scarf_tone_u8, 3, sizeof(layout::TonePush), {}},
       {tone_float_, "scarf_tone_float", shaders::scarf_tone_float, 3, sizeof(layout::TonePush), {}},
       {extract_count_, "scarf_extract_count", shaders::scarf_extract_count, 3, sizeof(layout::PatchPush), {}},
@@ -137,9 +126,12 @@ Result<void> ScarfPipeline::create_kernels(vulkan::Device& device) {
       {bound_integrate_, integrate_, {&table_}},
       {bound_scan_, scan_, {&table_, &heads_, &totals_}},
       {bound_prune_, prune_, {&table_, &alive_}},
-      {bound_render_, render_, {&slots_, &totals_, &rendered_, &counts_}},
-      {bound_tone_u8_, tone_u8_, {&counts_, &levels_u8_, &picture_}},
-      {bound_tone_float_, tone_float_, {&counts_, &levels_float_, &picture_}},
+      {bound_clear_, clear_, {&slots_}},
+      {bound_render_, render_, {&slots_, &totals_, &polarity_counts_}},
+      {bound_tone_u8_[0], tone_u8_, {&counts_, &levels_u8_, &picture_}},
+      {bound_tone_u8_[1], tone_u8_, {&polarity_counts_, &levels_u8_, &picture_}},
+      {bound_tone_float_[0], tone_float_, {&counts_, &levels_float_, &picture_}},
+      {bound_tone_float_[1], tone_float_, {&polarity_counts_, &levels_float_, &picture_}},
       {bound_extract_count_, extract_count_, {&slots_, &totals_, &cursors_}},
   };
   for (const auto& b : bindings) {
@@ -152,8 +144,8 @@ Result<PushKernels> ScarfPipeline::bind_events(const Buffer& events) const {
   PushKernels k;
   if (auto r = assign(k.count, BoundKernel::create(*device_, count_, {&events, &ranges_, &table_})); !r)
     return r.error();
-  if (auto r = assign(k.place,
-                      BoundKernel::create(*device_, place_, {&events, &ranges_, &table_, &slots_, &alive_}));
+  if (auto r = assign(k.place, BoundKernel::create(*device_, place_,
+                                                   {&events, &ranges_, &table_, &slots_, &alive_, &counts_}));
       !r) {
     return r.error();
   }
@@ -181,12 +173,11 @@ Result<std::unique_ptr<ExtractTarget>> ScarfPipeline::make_extract_target() cons
 }
 
 void ScarfPipeline::record_reset(Commands& commands) const {
-  // Slots need no clearing: those at and beyond the total are never read. Pixels in no active region are zero
-  // from here on, since no stage writes them.
   commands.fill(heads_, 0);
   commands.fill(totals_, 0);
-  commands.fill(rendered_, 0);
   commands.fill(counts_, 0);
+  const layout::ClearPush push = {static_cast<uint32_t>(ring_slots(geometry_))};
+  commands.dispatch(bound_clear_, push.slots, layout::kLinearGroup, push);
   commands.mark("reset");
 }
 
@@ -205,6 +196,8 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
   push.prune = chunking.prune ? 1 : 0;
   push.field_x = geometry_.x.field_begin(0);
   push.field_y = geometry_.y.field_begin(0);
+  push.margin_lo_x = geometry_.x.margin_lo;
+  push.margin_lo_y = geometry_.y.margin_lo;
   push.cell_x = geometry_.x.cell;
   push.cell_y = geometry_.y.cell;
   push.capacity = geometry_.capacity;
@@ -282,10 +275,12 @@ layout::PatchPush ScarfPipeline::patch_push(uint32_t first, uint32_t count) cons
   return push;
 }
 
-void ScarfPipeline::record_render(Commands& commands, PolarityMode mode, bool all) const {
+const Buffer& ScarfPipeline::record_counts(Commands& commands, PolarityMode mode) const {
+  if (mode == PolarityMode::merged) return counts_;
   layout::PatchPush push = patch_push(0, plan_.patches);
-  push.mode = image_mode(mode);
-  push.render_all = all ? 1 : 0;
+  push.mode = mode == PolarityMode::separate ? layout::kModeSeparate : layout::kModeDifference;
+  commands.fill(polarity_counts_, 0);
+  commands.barrier();
   for (uint32_t begin = 0; begin < push.capacity; begin += layout::kSlotsPerDispatch) {
     push.slot_begin = begin;
     push.slot_end = std::min(begin + layout::kSlotsPerDispatch, push.capacity);
@@ -293,21 +288,28 @@ void ScarfPipeline::record_render(Commands& commands, PolarityMode mode, bool al
     commands.barrier();
   }
   commands.mark("render");
+  return polarity_counts_;
 }
 
-void ScarfPipeline::record_tone_u8(Commands& commands, uint32_t planes) const {
+const Buffer& ScarfPipeline::record_u8(Commands& commands, PolarityMode mode) const {
+  record_counts(commands, mode);
+  const bool separate = mode == PolarityMode::separate;
   layout::TonePush push = first_levels_;
-  push.pixels = static_cast<uint32_t>(planes * pixels(geometry_));
-  commands.dispatch(bound_tone_u8_, (push.pixels + 3) / 4, layout::kLinearGroup, push);
+  push.pixels = static_cast<uint32_t>((separate ? 2 : 1) * pixels(geometry_));
+  commands.dispatch(bound_tone_u8_[separate], (push.pixels + 3) / 4, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("tone");
+  return picture_;
 }
 
-void ScarfPipeline::record_tone_float(Commands& commands, uint32_t planes) const {
-  const layout::TonePush push = {static_cast<uint32_t>(planes * pixels(geometry_)), 0, 0};
-  commands.dispatch(bound_tone_float_, push.pixels, layout::kLinearGroup, push);
+const Buffer& ScarfPipeline::record_float(Commands& commands, PolarityMode mode) const {
+  record_counts(commands, mode);
+  const bool separate = mode == PolarityMode::separate;
+  const layout::TonePush push = {static_cast<uint32_t>((separate ? 2 : 1) * pixels(geometry_)), 0, 0};
+  commands.dispatch(bound_tone_float_[separate], push.pixels, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("tone");
+  return picture_;
 }
 
 void ScarfPipeline::record_extract(Commands& commands, const ExtractTarget& target, uint32_t first,
@@ -336,8 +338,8 @@ void ScarfPipeline::record_extract(Commands& commands, const ExtractTarget& targ
 
 uint64_t ScarfPipeline::memory_bytes() const {
   uint64_t bytes = 0;
-  for (const Buffer* b : {&ranges_, &table_, &alive_, &heads_, &totals_, &slots_, &rendered_, &counts_,
-                          &levels_u8_, &levels_float_, &picture_, &cursors_}) {
+  for (const Buffer* b : {&ranges_, &table_, &alive_, &heads_, &totals_, &slots_, &counts_, &levels_u8_,
+                          &levels_float_, &picture_, &cursors_}) {
     bytes += b->size();
   }
   return bytes;

@@ -52,11 +52,11 @@ class ScarfPipeline {
   void record_prune(vulkan::Commands& commands, const layout::BatchPush& push) const;
   void record_place(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
-  /// render: brings the counts up to date; with `all` also those of unchanged patches.
-  void record_render(vulkan::Commands& commands, PolarityMode mode, bool all) const;
-  /// tone: the counts of `planes` planes as brightness, in picture().
-  void record_tone_u8(vulkan::Commands& commands, uint32_t planes) const;
-  void record_tone_float(vulkan::Commands& commands, uint32_t planes) const;
+  /// Images of the state, each in the buffer that is returned: counts (render, unless they are kept anyway),
+  /// and brightness (tone). PolarityMode::difference is for counts only.
+  const vulkan::Buffer& record_counts(vulkan::Commands& commands, PolarityMode mode) const;
+  const vulkan::Buffer& record_u8(vulkan::Commands& commands, PolarityMode mode) const;
+  const vulkan::Buffer& record_float(vulkan::Commands& commands, PolarityMode mode) const;
   /// extract_count, extract_scan, extract_write: the events of patches first .. first+count-1.
   void record_extract(vulkan::Commands& commands, const ExtractTarget& target, uint32_t first, uint32_t count,
                       bool active_only, int64_t t_first) const;
@@ -67,7 +67,6 @@ class ScarfPipeline {
   const vulkan::Buffer& heads() const { return heads_; }
   const vulkan::Buffer& totals() const { return totals_; }
   const vulkan::Buffer& slots() const { return slots_; }
-  const vulkan::Buffer& counts() const { return counts_; }
   const vulkan::Buffer& picture() const { return picture_; }
   const Plan& plan() const { return plan_; }
   uint64_t memory_bytes() const;
@@ -82,12 +81,13 @@ class ScarfPipeline {
   Plan plan_;
   layout::TonePush first_levels_{};
   // Buffers before kernels before bindings: each is destroyed after what uses it.
-  vulkan::Buffer ranges_, table_, alive_, heads_, totals_, slots_, rendered_, counts_, levels_u8_,
+  vulkan::Buffer ranges_, table_, alive_, heads_, totals_, slots_, counts_, polarity_counts_, levels_u8_,
       levels_float_, picture_, cursors_;
-  vulkan::Kernel count_, integrate_, scan_, prune_, place_, render_, tone_u8_, tone_float_, extract_count_,
-      extract_scan_, extract_write_;
-  vulkan::BoundKernel bound_integrate_, bound_scan_, bound_prune_, bound_render_, bound_tone_u8_,
-      bound_tone_float_, bound_extract_count_;
+  vulkan::Kernel clear_, count_, integrate_, scan_, prune_, place_, render_, tone_u8_, tone_float_,
+      extract_count_, extract_scan_, extract_write_;
+  vulkan::BoundKernel bound_clear_, bound_integrate_, bound_scan_, bound_prune_, bound_render_,
+      bound_extract_count_;
+  vulkan::BoundKernel bound_tone_u8_[2], bound_tone_float_[2];  // of counts_, of polarity_counts_
 };
 
 }  // namespace scarf

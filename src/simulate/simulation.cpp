@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <type_traits>
 
 #include "core/text.h"
 #include "simulate/pixel.h"
@@ -165,7 +166,9 @@ std::unique_ptr<Simulation> simulate_scene(const SimulationOptions& options, Sce
 
 namespace {
 
-Result<void> check_range(std::string_view name, double value, double low, double high) {
+template <class T>
+Result<void> check_range(std::string_view name, T value, std::type_identity_t<T> low,
+                         std::type_identity_t<T> high) {
   if (value >= low && value <= high) return {};
   return Error{ErrorCode::illegal_parameter, text(name, " is ", value, ", legal is ", low, " to ", high)};
 }
@@ -176,9 +179,9 @@ Result<void> check(const SimulationOptions& o) {
   if (auto r = check_range("duration", o.duration_s, 1e-6, 86'400); !r) return r;
   if (auto r = check_range("threshold", o.threshold, 0.01, 5); !r) return r;
   if (auto r = check_range("mismatch", o.mismatch, 0, 0.3); !r) return r;
-  if (auto r = check_range("refractory", static_cast<double>(o.refractory_us), 0, 1'000'000); !r) return r;
+  if (auto r = check_range("refractory", o.refractory_us, 0, 1'000'000); !r) return r;
   if (auto r = check_range("noise", o.noise_hz, 0, 1000); !r) return r;
-  return check_range("hot pixels", o.hot_pixels, 0, static_cast<double>(o.sensor.width) * o.sensor.height);
+  return check_range("hot pixels", o.hot_pixels, 0, o.sensor.width * o.sensor.height);
 }
 
 }  // namespace

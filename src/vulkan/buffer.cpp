@@ -1,5 +1,6 @@
 #include "vulkan/buffer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <utility>

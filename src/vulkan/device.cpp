@@ -15,6 +15,9 @@ namespace scarf::vulkan {
 namespace {
 
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
+constexpr uint32_t kWorkgroupSize = 256;  // the largest of any shader
+constexpr VkSubgroupFeatureFlags kSubgroupOperations =
+    VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 Error device_error(const std::string& message) {
@@ -170,8 +173,11 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
     c.info.rejected = text("has Vulkan ", c.info.api_version, ", scarf needs 1.3: install a newer driver");
   } else if (!features.features.shaderInt64) {
     c.info.rejected = "has no 64-bit integers in shaders (shaderInt64)";
-  } else if (!(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT)) {
-    c.info.rejected = "has no subgroup shuffles in shaders";
+  } else if ((subgroup.supportedOperations & kSubgroupOperations) != kSubgroupOperations) {
+    c.info.rejected = "has no subgroup shuffles and ballots in shaders";
+  } else if (c.properties.limits.maxComputeWorkGroupInvocations < kWorkgroupSize) {
+    c.info.rejected = text("runs workgroups of ", c.properties.limits.maxComputeWorkGroupInvocations,
+                           " invocations, scarf needs ", kWorkgroupSize);
   } else if (!(control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT)) {
     c.info.rejected = "cannot fix the subgroup size of compute shaders";
   } else if (!compute) {
@@ -391,7 +397,6 @@ Result<void> Device::choose() {
   const uint32_t timestamp_bits = c.families[c.compute_family].timestampValidBits;
   limits_.storage_range = l.maxStorageBufferRange;
   limits_.workgroups = l.maxComputeWorkGroupCount[0];
-  limits_.workgroup_size = std::min(l.maxComputeWorkGroupInvocations, l.maxComputeWorkGroupSize[0]);
   limits_.subgroup_size = c.subgroup_size;
   limits_.loop_trips = quirks_of(c.driver).loop_trips;
   limits_.cpu = c.info.type == "cpu";

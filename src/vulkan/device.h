@@ -17,7 +17,6 @@ namespace scarf::vulkan {
 struct Limits {
   uint64_t storage_range = 0;   ///< bytes of one buffer binding
   uint32_t workgroups = 0;      ///< per axis of a dispatch
-  uint32_t workgroup_size = 0;  ///< invocations
   uint32_t subgroup_size = 0;   ///< required of kernels that ask for whole subgroups
   uint32_t loop_trips = 0;      ///< see Quirks
   bool cpu = false;

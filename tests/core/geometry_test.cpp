@@ -94,6 +94,10 @@ const PresetCase kPresetCases[] = {
      {{35, 11, 0, 3, 13, 13}, {26, 13, 0, 2, 15, 15}, 307}},
 };
 
+void PrintTo(const PresetCase& c, std::ostream* out) {
+  *out << c.name;
+}
+
 class Presets : public ::testing::TestWithParam<PresetCase> {};
 
 TEST_P(Presets, AreAsWorkedOutByHand) {
@@ -221,6 +225,10 @@ const RefusedPreset kRefusedPresets[] = {
     {"flex_sensor", Preset::event_driven_flex, {9, 8}, {}, {"9x8", "smallest is 9x9"}},
     {"explicit", Preset::explicit_, {240, 180}, {}, {"explicit", "checked_geometry"}},
 };
+
+void PrintTo(const RefusedPreset& c, std::ostream* out) {
+  *out << c.name;
+}
 
 class Refused : public ::testing::TestWithParam<RefusedPreset> {};
 

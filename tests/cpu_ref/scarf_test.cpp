@@ -10,6 +10,11 @@
 #include "scarf/reference.h"
 
 namespace scarf {
+
+void PrintTo(const Geometry& geometry, std::ostream* out) {
+  *out << to_string(geometry);
+}
+
 namespace {
 
 using ::testing::ElementsAre;

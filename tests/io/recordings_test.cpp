@@ -18,6 +18,10 @@ struct Known {
   const char* digest;
 };
 
+void PrintTo(const Known& known, std::ostream* out) {
+  *out << known.path;
+}
+
 class Recordings : public ::testing::TestWithParam<Known> {};
 
 TEST_P(Recordings, AreReadAsKnown) {

@@ -179,6 +179,33 @@ TEST(Writers, CreationErrors) {
   EXPECT_THAT(write_all("/dev/full", WriteFormat::text, {640, 480}, {}), HasSubstr("cannot write"));
 }
 
+TEST(Writers, AFileAppearsWhenItIsFinished) {
+  const TemporaryFile file;
+  std::filesystem::remove(file.path());
+  const std::vector<Event> events = {{1, 2, 3, 1}};
+  {
+    auto abandoned = *create_events(file.path(), WriteFormat::evt2, {640, 480});
+    ASSERT_TRUE(abandoned->write(events).ok());
+  }
+  EXPECT_FALSE(std::filesystem::exists(file.path()));
+
+  std::ofstream(file.path()) << "earlier";
+  {
+    auto refused = *create_events(file.path(), WriteFormat::evt2, {640, 480});
+    ASSERT_FALSE(refused->write(std::vector<Event>{{1, 640, 3, 1}}).ok());
+  }
+  EXPECT_EQ(file.content(), bytes_of("earlier"));
+
+  // Through a link, which stays one.
+  const std::string link = file.path() + "_link";
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(file.path(), link);
+  EXPECT_EQ(write_all(link, WriteFormat::text, {640, 480}, events), "");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(file.content(), bytes_of("640 480\n0.000001 2 3 1\n"));
+  std::filesystem::remove(link);
+}
+
 TEST(Writers, AFinishedSinkRefusesMore) {
   const TemporaryFile file;
   auto sink = create_events(file.path(), WriteFormat::text, {640, 480});

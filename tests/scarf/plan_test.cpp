@@ -14,7 +14,6 @@ vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) 
   vulkan::Limits limits;
   limits.storage_range = 128u << 20;
   limits.workgroups = 65'535;
-  limits.workgroup_size = 1024;
   limits.subgroup_size = subgroup_size;
   limits.loop_trips = loop_trips;
   limits.cpu = cpu;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 
+#include "core/packed_event.h"
 #include "scarf/pipeline.h"
 #include "tests/support/context.h"
 #include "tests/support/same.h"
@@ -32,7 +33,8 @@ class Stages : public test::DeviceTest {
     ranges_ = patch_ranges(geometry);
     heads_.assign(plan_.patches, 0);
     totals_.assign(plan_.patches, 0);
-    slots_.assign(geometry.patches() * geometry.capacity, 0);
+    slots_.assign(geometry.patches() * geometry.capacity, kEmptySlot);
+    counts_.assign(size_t{1} * geometry.x.size * geometry.y.size, 0);
   }
 
   template <class Record>
@@ -85,41 +87,37 @@ class Stages : public test::DeviceTest {
       ++pruned_;
     }
 
-    stages::scarf_place(events, ranges_, table, slots_, push);
+    stages::scarf_place(events, ranges_, table, slots_, counts_, push);
     run([&] { pipeline_->record_place(commands_, *kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "place";
-    const auto slots = read<uint64_t>(pipeline_->slots(), slots_.size());
-    for (size_t i = 0; i < slots_.size(); ++i) {
-      if (i % geometry_.capacity < totals_[i / geometry_.capacity]) {
-        ASSERT_EQ(slots[i], slots_[i]) << "place, slot " << i;
-      }
-    }
+    ASSERT_EQ(read<uint64_t>(pipeline_->slots(), slots_.size()), slots_) << "place";
+    ASSERT_EQ(read<int32_t>(pipeline_->record_counts(commands_, PolarityMode::merged), counts_.size()),
+              counts_);
   }
 
   void compare_images() {
-    const Geometry& g = geometry_;
-    const size_t pixels = size_t{2} * g.x.size * g.y.size;
     layout::PatchPush push = pipeline_->patch_push(0, plan_.patches);
     push.slot_end = push.capacity;
+    const Levels levels = *make_levels(0.3, geometry_.capacity);
     for (PolarityMode mode : {PolarityMode::separate, PolarityMode::difference, PolarityMode::merged}) {
-      const size_t shown = mode == PolarityMode::separate ? pixels : pixels / 2;
-      push.mode = static_cast<uint32_t>(mode);
-      std::vector<int32_t> counts(pixels);
-      stages::scarf_render(slots_, totals_, counts, push);
-      counts.resize(shown);
-      run([&] { pipeline_->record_render(commands_, mode, true); });
-      ASSERT_EQ(read<int32_t>(pipeline_->counts(), shown), counts) << "render";
+      std::vector<int32_t> counts = counts_;
+      if (mode != PolarityMode::merged) {
+        counts.assign((mode == PolarityMode::separate ? 2 : 1) * counts_.size(), 0);
+        push.mode = mode == PolarityMode::separate ? layout::kModeSeparate : layout::kModeDifference;
+        stages::scarf_render(slots_, totals_, counts, push);
+      }
+      const Buffer* result = nullptr;
+      run([&] { result = &pipeline_->record_counts(commands_, mode); });
+      ASSERT_EQ(read<int32_t>(*result, counts.size()), counts) << "render";
       if (mode == PolarityMode::difference) continue;
-      const Levels levels = *make_levels(0.3, g.capacity);
-      const uint32_t planes = mode == PolarityMode::separate ? 2 : 1;
-      std::vector<uint8_t> u8(shown);
+      std::vector<uint8_t> u8(counts.size());
       stages::scarf_tone<uint8_t>(counts, levels.u8, u8);
-      run([&] { pipeline_->record_tone_u8(commands_, planes); });
-      ASSERT_EQ(read<uint8_t>(pipeline_->picture(), shown), u8) << "tone";
-      std::vector<float> f32(shown);
+      run([&] { result = &pipeline_->record_u8(commands_, mode); });
+      ASSERT_EQ(read<uint8_t>(*result, u8.size()), u8) << "tone";
+      std::vector<float> f32(counts.size());
       stages::scarf_tone<float>(counts, levels.f32, f32);
-      run([&] { pipeline_->record_tone_float(commands_, planes); });
-      ASSERT_EQ(read<float>(pipeline_->picture(), shown), f32) << "tone";
+      run([&] { result = &pipeline_->record_float(commands_, mode); });
+      ASSERT_EQ(read<float>(*result, f32.size()), f32) << "tone";
     }
   }
 
@@ -151,6 +149,7 @@ class Stages : public test::DeviceTest {
   Commands commands_;
   std::vector<uint32_t> ranges_, heads_;
   std::vector<uint64_t> totals_, slots_;
+  std::vector<int32_t> counts_;
 };
 
 TEST_F(Stages, EqualTheirTwins) {

@@ -308,7 +308,7 @@ TEST(Simulation, RefusesIllegalOptions) {
       {[](SimulationOptions& o) { o.threshold = 0; }, "threshold is 0", "0.01 to 5"},
       {[](SimulationOptions& o) { o.threshold = 6; }, "threshold is 6", "0.01 to 5"},
       {[](SimulationOptions& o) { o.mismatch = 0.5; }, "mismatch is 0.5", "0 to 0.3"},
-      {[](SimulationOptions& o) { o.refractory_us = -1; }, "refractory is -1", "0 to 1e+06"},
+      {[](SimulationOptions& o) { o.refractory_us = -1; }, "refractory is -1", "0 to 1000000"},
       {[](SimulationOptions& o) { o.noise_hz = -1; }, "noise is -1", "0 to 1000"},
       {[](SimulationOptions& o) { o.noise_hz = kNan; }, "noise is nan", "0 to 1000"},
       {[](SimulationOptions& o) { o.hot_pixels = -1; }, "hot pixels is -1", "0 to 10800"},

@@ -6,6 +6,7 @@
 #include "scarf/reference.h"
 #include "tests/tools/altered_scarf.h"
 #include "tests/tools/event_fixtures.h"
+#include "tests/tools/temporary_folder.h"
 #include "tools/lockstep.h"
 
 namespace scarf::tools {
@@ -213,6 +214,51 @@ TEST(ShortestFailure, IsFoundWithinTheBatchThatDiffered) {
   const Lockstep shortest = shortest_failure(run, open, options, *a, b, kNames);
   EXPECT_EQ(shortest.events, expected);
   EXPECT_THAT(shortest.difference.value_or(""), StartsWith("patch 0 slot 0: "));
+}
+
+TEST(FailingPrefix, FailsAgainWhenItIsPlayed) {
+  const TemporaryFolder folder;
+  const std::vector<Event> events = random_events(1000, kSensor);
+  const auto a = make_scarf();
+  AlteredScarf b(make_scarf());
+  b.alter_u8 = [&](Image<uint8_t>& image) {
+    const auto snapshot = *a->snapshot().wait();
+    if (snapshot.totals[0] >= 20) image.pixels[5] ^= 1;
+  };
+  const auto open = [&]() -> Result<std::unique_ptr<EventSource>> {
+    return std::unique_ptr<EventSource>(std::make_unique<VectorSource>(events, kSensor));
+  };
+  const PlayOptions options{.batches = BatchSizes::fixed(300)};
+  const auto run = *run_in_lockstep(**open(), options, *a, b, kNames);
+  ASSERT_TRUE(run.difference.has_value());
+  const Lockstep failed = shortest_failure(run, open, options, *a, b, kNames);
+  ASSERT_LT(failed.events, run.events);
+
+  const std::string path = folder.path("failing.txt");
+  ASSERT_TRUE(write_prefix(open, kSensor, failed.events, path).ok());
+  const auto open_prefix = [&] { return open_events(path); };
+  std::vector<Event> prefix(events.size());
+  prefix.resize(*(*open_prefix())->read(prefix));
+  EXPECT_EQ(prefix,
+            std::vector<Event>(events.begin(), events.begin() + static_cast<ptrdiff_t>(failed.events)));
+
+  ASSERT_TRUE(a->reset().ok() && b.reset().ok());
+  const auto again = *run_in_lockstep(**open_prefix(), options, *a, b, kNames);
+  EXPECT_EQ(again.difference, failed.difference);
+  EXPECT_EQ(again.events, failed.events);
+}
+
+TEST(FailingPrefix, LeavesNoFileWhereItCannotBeWritten) {
+  const TemporaryFolder folder;
+  const auto no_recording = []() -> Result<std::unique_ptr<EventSource>> {
+    return Error{ErrorCode::io, "gone"};
+  };
+  EXPECT_EQ(write_prefix(no_recording, kSensor, 5, folder.path("a.txt")).error().message, "gone");
+  const auto outside = [&]() -> Result<std::unique_ptr<EventSource>> {
+    return std::unique_ptr<EventSource>(std::make_unique<VectorSource>(random_events(50, kSensor), kSensor));
+  };
+  EXPECT_FALSE(write_prefix(outside, {1, 1}, 50, folder.path("a.txt")).ok());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
 }
 
 TEST(ShortestFailure, OneThatDoesNotComeAgainStaysAsItWas) {

@@ -35,8 +35,9 @@ class Program : public testing::Test {
  protected:
   // Standard error must be empty or one line that begins with "scarf: ", in every run of every test.
   Outcome run(const std::string& arguments) {
+    // What the arguments redirect themselves comes last, and so counts.
     const std::string command =
-        std::string(SCARF_PROGRAM) + " " + arguments + " >" + path("out") + " 2>" + path("err");
+        text("exec >", path("out"), " 2>", path("err"), "; exec ", SCARF_PROGRAM, " ", arguments);
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(path("out")),
                     content_of(path("err"))};
@@ -120,13 +121,38 @@ TEST_F(Program, BadUsageExitsWithTwo) {
                                 "render " + file + " --cpu -o " + path("o.mp4") + " --at end",
                                 "render " + file + " --cpu -o " + path("o") + " --video-fps 5",
                                 "render " + file + " --cpu -o " + path("o.pgm") + " --compare-window 5",
+                                "render " + file + " --cpu -o " + path("o") + " --every -1",
+                                "render " + file + " --cpu -o " + path("o") + " --every 99999999999999999999",
+                                "render " + file + " --cpu -o " + path("o") + " --rate nan",
+                                "render " + file + " --cpu -o " + path("o") + " --rate 1e3",
+                                "render " + file + " --cpu -o " + path("o") + " --max-frames 0",
+                                "render " + file + " --cpu -o " + path("o.mp4") + " --video-fps nan",
+                                "render " + file + " --cpu -o " + path("o.mp4") + " --video-fps 0",
+                                "render " + file + " --cpu -o ''",
+                                "digest " + file + " --cpu --batch 0",
+                                "digest " + file + " --cpu --geometry 64",
+                                "digest " + file + " --cpu --device 0",
+                                "verify " + file + " --max-events -1",
+                                "simulate",
+                                "simulate " + path("o.png"),
+                                "simulate " + path("o.raw") + " --scene none",
+                                "simulate " + path("o.raw") + " --format png",
+                                "simulate " + path("o.raw") + " --sensor 0x0",
+                                "simulate " + path("o.raw") + " --duration 0",
+                                "simulate " + path("o.raw") + " --duration nan",
+                                "simulate " + path("o.raw") + " --seed -1",
+                                "simulate " + path("o.raw") + " --hot-pixels 1.5",
+                                "simulate " + path("o.raw") + " --refractory -1",
+                                "simulate " + path("o.raw") + " --truth " + path("o") + " --truth-rate 0",
                                 "verify " + file + " --cpu"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.err;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_LT(outcome.err.size(), 300u) << outcome.err;
   }
-  EXPECT_FALSE(fs::exists(path("o")));
+  for (const char* output : {"o", "o.raw", "o.mp4", "o.png"})
+    EXPECT_FALSE(fs::exists(path(output))) << output;
 }
 
 TEST_F(Program, BadInputExitsWithOne) {
@@ -134,9 +160,30 @@ TEST_F(Program, BadInputExitsWithOne) {
   write_text(path("empty"), "");
   write_text(path("prose"), "Once upon a time\nthere was a camera\n");
   write_text(path("no_sensor.txt"), "0.000001 3 4 1\n0.000002 3 5 0\n");
+  write_text(path("escapes"), "\033[2J\007" + std::string(5000, 'x') + "\n");
+  fs::create_directory(path("folder"));
   for (const std::string& arguments : std::vector<std::string>{
-           "info " + path("missing"), "info " + path("prose"), "digest --cpu " + path("missing"),
-           "digest --cpu " + path("no_sensor.txt"), "digest --cpu --geometry 32x32 " + file,
+           "info " + path("missing"),
+           "info " + path("folder"),
+           "info " + path("empty"),
+           "info - </dev/null",
+           "info - <&-",
+           "digest --cpu " + path("folder"),
+           "verify " + path("folder"),
+           "compare " + path("folder") + " " + path("folder"),
+           "render " + file + " --cpu -o " + path("prose"),
+           "render " + file + " --cpu -o /proc/o.mp4",
+           "render " + file + " --cpu -o " + path("o") + " --at-times " + path("folder"),
+           "render " + file + " --cpu -o " + path("o") + " --at-times " + path("empty"),
+           "render " + file + " --cpu -o " + path("o") + " --at-times " + path("escapes"),
+           "simulate " + path("none/o.raw"),
+           "simulate " + path("folder") + " --format text",
+           "simulate " + path("o.raw") + " --truth " + path("prose"),
+           "simulate " + path("o.raw") + " --sensor 4096x16",
+           "info " + path("prose"),
+           "digest --cpu " + path("missing"),
+           "digest --cpu " + path("no_sensor.txt"),
+           "digest --cpu --geometry 32x32 " + file,
            "digest --cpu " + file + " --dump " + path("none/dump"),
            "digest " + file + " --device no-such-device",
            "compare " + path("missing") + " " + path("missing"),
@@ -148,6 +195,10 @@ TEST_F(Program, BadInputExitsWithOne) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 1) << arguments << "\n" << outcome.err;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
+    EXPECT_LT(outcome.err.size(), 400u) << arguments;
+    EXPECT_EQ(outcome.err.find('\033'), std::string::npos) << arguments;
+    EXPECT_FALSE(fs::exists(path("o"))) << arguments;
+    EXPECT_FALSE(fs::exists(path("o.raw")) || fs::exists(path("o.part.raw"))) << arguments;
   }
   EXPECT_THAT(run("digest --cpu " + path("no_sensor.txt")).err, HasSubstr("--geometry"));
   EXPECT_EQ(run("digest --cpu --geometry 32x32 " + path("no_sensor.txt")).exit_code, 0);
@@ -317,6 +368,66 @@ TEST_F(Program, AFullDiskIsAnError) {
   fs::create_symlink("/dev/full", path("full.png"));
   EXPECT_EQ(run("render --cpu " + file + " -o " + path("full.png")).exit_code, 1);
   EXPECT_TRUE(fs::is_symlink(path("full.png")));
+}
+
+TEST_F(Program, LostOutputIsAnError) {
+  const std::string file = recording(100);
+  for (const std::string& arguments : std::vector<std::string>{
+           "--version", "--help", "info " + file, "digest --cpu " + file,
+           "render --cpu " + file + " -o " + path("o.png"), "simulate - --format text --duration 0.01"}) {
+    for (const std::string target : {"/dev/full", "&-"}) {
+      if (target == "/dev/full" && !fs::exists(target)) continue;
+      const Outcome outcome = run(arguments + " >" + target);
+      EXPECT_EQ(outcome.exit_code, 1) << arguments << " >" << target;
+      EXPECT_THAT(outcome.err, HasSubstr("standard output")) << arguments << " >" << target;
+    }
+  }
+}
+
+TEST_F(Program, SimulatesTheSameInEveryFormat) {
+  const std::string options = " --scene shake --sensor 64x48 --duration 0.3 --seed 7 --hot-pixels 3 ";
+  const auto events_in = [&](const std::string& file) {
+    const std::string out = run("info --digest " + file).out;
+    return out.substr(std::min(out.find("\nevents "), out.size()));
+  };
+  for (const std::string output : {"a.raw", "a.evt2 --format evt2", "a.txt", "a.csv", "again.raw"}) {
+    ASSERT_EQ(run("simulate " + path(output) + options).exit_code, 0) << output;
+  }
+  EXPECT_EQ(content_of(path("a.raw")), content_of(path("again.raw")));
+  const std::string events = events_in(path("a.raw"));
+  EXPECT_THAT(events, StartsWith("\nevents "));
+  for (const char* name : {"a.evt2", "a.txt", "a.csv"}) EXPECT_EQ(events_in(path(name)), events) << name;
+  for (const auto& [name, format] : {std::pair{"a.raw", "EVT3"}, {"a.evt2", "EVT2"}, {"a.txt", "text"}}) {
+    const std::string out = run("info " + path(name)).out;
+    EXPECT_THAT(out, StartsWith(text("format:            ", format, "\n"))) << name;
+    EXPECT_THAT(out, HasSubstr("\nsensor:            64x48\n")) << name;
+  }
+
+  ASSERT_EQ(run("simulate " + path("seed.raw") + options.substr(0, options.find("--seed"))).exit_code, 0);
+  EXPECT_NE(events_in(path("seed.raw")), events);
+
+  // To standard output the recording goes alone; what is told goes to standard error.
+  const std::string to_stdout = "simulate - --format evt3" + options;
+  const int status =
+      std::system((SCARF_PROGRAM " " + to_stdout + " >" + path("out.raw") + " 2>" + path("told")).c_str());
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(content_of(path("out.raw")), content_of(path("a.raw")));
+  EXPECT_THAT(content_of(path("told")), HasSubstr(" events, 0.3 s, "));
+}
+
+TEST_F(Program, SimulatesTheTruthBeside) {
+  const std::string line =
+      "simulate " + path("a.raw") + " --sensor 64x48 --duration 0.2 --truth " + path("truth");
+  ASSERT_EQ(run(line + " --truth-rate 40").exit_code, 0);
+  ASSERT_EQ(run(line + " --truth-rate 20").exit_code, 0);  // replaces all of the earlier one
+  EXPECT_EQ(content_of(path("truth/frames.csv")), "index,t_us\n0,0\n1,50000\n2,100000\n3,150000\n4,200000\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("truth")), fs::directory_iterator()), 11);
+  for (const char* name : {"frame_000004.png", "edges_000004.png"}) {
+    const cv::Mat picture = cv::imread(path(text("truth/", name)), cv::IMREAD_UNCHANGED);
+    EXPECT_EQ(picture.type(), CV_8UC1) << name;
+    EXPECT_EQ(picture.size(), cv::Size(64, 48)) << name;
+    EXPECT_GT(cv::countNonZero(picture), 0) << name;
+  }
 }
 
 TEST_F(Program, VerifiesTheDevice) {
