@@ -7,7 +7,8 @@
 
 namespace scarf {
 
-/// One brightness change of one pixel. 16 bytes, so that arrays of events can be shared with a GPU as they are.
+/// One brightness change of one pixel. 16 bytes, so that arrays of events can be shared with a GPU as they
+/// are.
 struct Event {
   int64_t t = 0;   ///< time in microseconds; any origin, small back-steps are legal
   uint16_t x = 0;  ///< pixel column, 0 = left

@@ -15,10 +15,10 @@ namespace scarf::vulkan {
 
 /// What the planners and the memory code need to know about a device.
 struct Limits {
-  uint64_t storage_range = 0;   ///< bytes of one buffer binding
-  uint32_t workgroups = 0;      ///< per axis of a dispatch
-  uint32_t subgroup_size = 0;   ///< required of kernels that ask for whole subgroups
-  uint32_t loop_trips = 0;      ///< see Quirks
+  uint64_t storage_range = 0;  ///< bytes of one buffer binding
+  uint32_t workgroups = 0;     ///< per axis of a dispatch
+  uint32_t subgroup_size = 0;  ///< required of kernels that ask for whole subgroups
+  uint32_t loop_trips = 0;     ///< see Quirks
   bool cpu = false;
   double timestamp_period = 0;  ///< nanoseconds per tick; 0: no timestamps
   uint64_t timestamp_mask = 0;
