@@ -400,13 +400,25 @@ class Stream : public std::enable_shared_from_this<Stream> {
     if (s.begin == s.fill) return {};
     auto commands = take_commands();
     if (!commands) return commands.error();
-    Commands& c = (*commands)->compute;
+    const Result<void> submitted = submit_push(**commands, s);
+    // Also after a failure: the transfer may be in flight.
+    push_pool_.give_back(std::move(*commands));
+    if (!submitted) return submitted;
+    s.last_use = last_submission_;
+    s.begin = s.fill;
+    if (!acquired_) advance();
+    return {};
+  }
+
+  Result<void> submit_push(PushCommands& commands, const StagingSlot& s) {
+    Commands& c = commands.compute;
     const vulkan::Queue* wait_queue = nullptr;
     uint64_t wait_value = 0;
     const uint64_t offset = s.begin * sizeof(Event);
     const uint64_t bytes = (s.fill - s.begin) * sizeof(Event);
     if (upload_ == Upload::transfer_queue) {
-      Commands& t = (*commands)->transfer;
+      Commands& t = commands.transfer;
+      if (auto r = t.wait(); !r) return r;
       if (auto r = t.begin(); !r) return r;
       t.copy(s.host, offset, s.device, offset, bytes);
       if (auto r = t.submit(); !r) return r;
@@ -420,12 +432,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
       c.mark("upload");
     }
     pipeline_->record_push(c, s.kernels, s.begin, s.fill - s.begin, t_first_.value_or(0));
-    if (auto r = submit(c, wait_queue, wait_value); !r) return r;
-    s.last_use = last_submission_;
-    s.begin = s.fill;
-    push_pool_.give_back(std::move(*commands));
-    if (!acquired_) advance();
-    return {};
+    return submit(c, wait_queue, wait_value);
   }
 
   // Moves on to the next slot if that is free, so that the next batch does not have to fit into what is left

@@ -292,21 +292,21 @@ const Buffer& ScarfPipeline::record_counts(Commands& commands, PolarityMode mode
 }
 
 const Buffer& ScarfPipeline::record_u8(Commands& commands, PolarityMode mode) const {
+  return record_tone(commands, mode, bound_tone_u8_, 4);
+}
+
+const Buffer& ScarfPipeline::record_float(Commands& commands, PolarityMode mode) const {
+  return record_tone(commands, mode, bound_tone_float_, 1);
+}
+
+const Buffer& ScarfPipeline::record_tone(Commands& commands, PolarityMode mode, const BoundKernel (&tone)[2],
+                                         uint32_t pixels_per_invocation) const {
   record_counts(commands, mode);
   const bool separate = mode == PolarityMode::separate;
   layout::TonePush push = first_levels_;
   push.pixels = static_cast<uint32_t>((separate ? 2 : 1) * pixels(geometry_));
-  commands.dispatch(bound_tone_u8_[separate], (push.pixels + 3) / 4, layout::kLinearGroup, push);
-  commands.barrier();
-  commands.mark("tone");
-  return picture_;
-}
-
-const Buffer& ScarfPipeline::record_float(Commands& commands, PolarityMode mode) const {
-  record_counts(commands, mode);
-  const bool separate = mode == PolarityMode::separate;
-  const layout::TonePush push = {static_cast<uint32_t>((separate ? 2 : 1) * pixels(geometry_)), 0, 0};
-  commands.dispatch(bound_tone_float_[separate], push.pixels, layout::kLinearGroup, push);
+  const uint32_t invocations = (push.pixels + pixels_per_invocation - 1) / pixels_per_invocation;
+  commands.dispatch(tone[separate], invocations, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("tone");
   return picture_;

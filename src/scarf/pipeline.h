@@ -75,6 +75,9 @@ class ScarfPipeline {
   ScarfPipeline() = default;
   Result<void> create_buffers(vulkan::Device& device, const Levels& levels);
   Result<void> create_kernels(vulkan::Device& device);
+  const vulkan::Buffer& record_tone(vulkan::Commands& commands, PolarityMode mode,
+                                    const vulkan::BoundKernel (&tone)[2],
+                                    uint32_t pixels_per_invocation) const;
 
   vulkan::Device* device_ = nullptr;
   Geometry geometry_;
