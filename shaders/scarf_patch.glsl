@@ -1,5 +1,6 @@
 // A patch of the state, as the render and extract stages see it.
 layout(push_constant) uniform Push { PatchPush push; };
+#include "active.glsl"
 
 struct Patch {
   uint ring;    // index of its first slot
@@ -15,8 +16,3 @@ Patch patch_of(uint patch_id) {
 
 // Slots in use of a patch of which `total` events (low and high word) were pushed.
 uint filled_slots(uvec2 total) { return total.y != 0 ? push.capacity : min(total.x, push.capacity); }
-
-bool is_active(uint low_word) {
-  // Differences below zero wrap to large numbers.
-  return packed_x(low_word) - push.margin_lo_x < push.cell_x && packed_y(low_word) - push.margin_lo_y < push.cell_y;
-}

@@ -7,15 +7,11 @@
 #include "layout.h"
 #include "packed_event.glsl"
 #include "team.glsl"
+#include "active.glsl"
 
 layout(std430, binding = 3) buffer Slots { uint64_t slots[]; };
 layout(std430, binding = 4) readonly buffer Alive { uint alive[]; };  // see scarf_prune.comp; valid if push.prune
 layout(std430, binding = 5) buffer Counts { int counts[]; };          // active stored events per pixel
-
-bool is_active(uint local_x, uint local_y) {
-  // Differences below zero wrap to large numbers.
-  return local_x - push.margin_lo_x < push.cell_x && local_y - push.margin_lo_y < push.cell_y;
-}
 
 // One hit of an event (x | y << 16, time and polarity packed) on patch (i, j).
 void place_hit(Lane lane, uint i, uint j, uint xy, uvec2 word) {
@@ -32,15 +28,13 @@ void place_hit(Lane lane, uint i, uint j, uint xy, uvec2 word) {
   const uint64_t old = slots[slot];
   const uint field_x = uint(push.field_x) + i * push.cell_x;  // fields may begin outside the sensor and wrap,
   const uint field_y = uint(push.field_y) + j * push.cell_y;  // pixels of events never do
-  const uint x = (xy & 0xFFFF) - field_x;
-  const uint y = (xy >> 16) - field_y;
-  slots[slot] = packUint2x32(uvec2(word.x | pack_position(x, y), word.y));
-  const uint old_x = packed_x(uint(old));
-  const uint old_y = packed_y(uint(old));
-  if (old != kEmptySlot && is_active(old_x, old_y)) {
-    atomicAdd(counts[(field_y + old_y) * push.width + field_x + old_x], -1);
+  const uint low_word = word.x | pack_position((xy & 0xFFFF) - field_x, (xy >> 16) - field_y);
+  slots[slot] = packUint2x32(uvec2(low_word, word.y));
+  const uint old_word = uint(old);
+  if (old != kEmptySlot && is_active(old_word)) {
+    atomicAdd(counts[(field_y + packed_y(old_word)) * push.width + field_x + packed_x(old_word)], -1);
   }
-  if (is_active(x, y)) atomicAdd(counts[(xy >> 16) * push.width + (xy & 0xFFFF)], 1);
+  if (is_active(low_word)) atomicAdd(counts[(xy >> 16) * push.width + (xy & 0xFFFF)], 1);
 }
 
 void main() {

@@ -12,8 +12,6 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
   const Table& calls = device.calls();
   Kernel k;
   k.device_ = &device;
-  k.name_ = name;
-  k.push_bytes_ = push_bytes;
 
   std::vector<VkDescriptorSetLayoutBinding> slots(bindings);
   for (uint32_t i = 0; i < bindings; ++i) {
@@ -91,8 +89,6 @@ Kernel::~Kernel() {
 
 void Kernel::swap(Kernel& other) noexcept {
   std::swap(device_, other.device_);
-  std::swap(name_, other.name_);
-  std::swap(push_bytes_, other.push_bytes_);
   std::swap(set_layout_, other.set_layout_);
   std::swap(layout_, other.layout_);
   std::swap(pipeline_, other.pipeline_);

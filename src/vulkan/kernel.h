@@ -31,15 +31,11 @@ class Kernel {
   VkPipeline pipeline() const { return pipeline_; }
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSetLayout set_layout() const { return set_layout_; }
-  uint32_t push_bytes() const { return push_bytes_; }
-  const char* name() const { return name_; }
 
  private:
   void swap(Kernel& other) noexcept;
 
   const Device* device_ = nullptr;
-  const char* name_ = "";
-  uint32_t push_bytes_ = 0;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
