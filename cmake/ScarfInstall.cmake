@@ -32,7 +32,7 @@ function(scarf_component target)
   install(FILES ${ARG_HEADERS} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/scarf")
 endfunction()
 
-scarf_component(scarf_core HEADERS event.h geometry.h image.h pending.h result.h scarf.h)
+scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.h parameters.h pending.h representation.h result.h scarf.h)
 scarf_component(scarf_vulkan)
 scarf_component(scarf_gpu HEADERS gpu.h)
 scarf_component(scarf_cpu_ref HEADERS reference.h)

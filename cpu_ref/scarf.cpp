@@ -49,13 +49,13 @@ class ReferenceScarf final : public Scarf {
     return image<int32_t>(mode, [](int32_t count) { return count; });
   }
 
-  Pending<Image<uint8_t>> u8_image(PolarityMode mode) override {
+  Pending<Image<uint8_t>> u8_planes(PolarityMode mode) override {
     if (auto r = check_dense_mode(mode); !r) return r.error();
     std::lock_guard lock(mutex_);
     return image<uint8_t>(mode, [this](int32_t count) { return u8_levels_(count); });
   }
 
-  Pending<Image<float>> float_image(PolarityMode mode) override {
+  Pending<Image<float>> float_planes(PolarityMode mode) override {
     if (auto r = check_dense_mode(mode); !r) return r.error();
     std::lock_guard lock(mutex_);
     return image<float>(mode, [this](int32_t count) { return f32_levels_(count); });

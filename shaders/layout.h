@@ -111,10 +111,11 @@ struct PatchPush {
   uint t_first_high;
 };
 
-// tone: counts to brightness.
+// tone: whole numbers to brightness.
 struct TonePush {
   uint pixels;
-  uint levels_0_to_3;  // 8-bit levels of the counts 0 .. 7, the first in the lowest bits; zero beyond the capacity
+  uint last_level;     // larger numbers count as this one
+  uint levels_0_to_3;  // 8-bit levels of 0 .. 7, the first in the lowest bits
   uint levels_4_to_7;
 };
 

@@ -26,6 +26,7 @@ void add_compare(CLI::App& program, Command& command);
 void add_devices(CLI::App& program, Command& command);
 void add_digest(CLI::App& program, Command& command);
 void add_info(CLI::App& program, Command& command);
+void add_representations(CLI::App& program, Command& command);
 void add_render(CLI::App& program, Command& command);
 void add_simulate(CLI::App& program, Command& command);
 void add_verify(CLI::App& program, Command& command);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
 #include "core/text.h"
+#include "cpu_ref/aae.h"
 
 namespace scarf::tools {
 namespace {
@@ -81,8 +83,8 @@ Difference list_difference(const std::string& what, const std::vector<Event>& a,
 }
 
 // Asks both sides the same question and compares the answers; both are asked before either is waited for.
-template <class Ask, class Compare>
-Result<Difference> asked(Scarf& a, Scarf& b, Ask ask, Compare compare) {
+template <class R, class Ask, class Compare>
+Result<Difference> asked(R& a, R& b, Ask ask, Compare compare) {
   auto pending_a = ask(a);
   auto pending_b = ask(b);
   const auto answer_a = pending_a.wait();
@@ -107,7 +109,9 @@ Difference geometry_difference(const Geometry& a, const Geometry& b, const SideN
   return text("geometry: ", to_string(a), " in ", names.a, ", ", to_string(b), " in ", names.b);
 }
 
-Result<Difference> first_difference(Scarf& a, Scarf& b, const SideNames& names) {
+namespace {
+
+Result<Difference> scarf_difference(Scarf& a, Scarf& b, const SideNames& names) {
   const auto snapshots = [&](const Snapshot& x, const Snapshot& y) {
     return snapshot_difference(x, y, names);
   };
@@ -130,10 +134,10 @@ Result<Difference> first_difference(Scarf& a, Scarf& b, const SideNames& names) 
     if (!d || *d) return d;
     if (mode == PolarityMode::difference) continue;  // dense images refuse it
     d = asked(
-        a, b, [=](Scarf& s) { return s.u8_image(asked_mode); }, images("u8"));
+        a, b, [=](Scarf& s) { return s.u8_planes(asked_mode); }, images("u8"));
     if (!d || *d) return d;
     d = asked(
-        a, b, [=](Scarf& s) { return s.float_image(asked_mode); }, images("float"));
+        a, b, [=](Scarf& s) { return s.float_planes(asked_mode); }, images("float"));
     if (!d || *d) return d;
   }
 
@@ -148,6 +152,112 @@ Result<Difference> first_difference(Scarf& a, Scarf& b, const SideNames& names) 
     if (!d || *d) return d;
   }
   return Difference();
+}
+
+using Bytes = std::vector<uint8_t>;
+
+Result<Difference> state_difference(Representation& a, Representation& b, const SideNames& names) {
+  const auto compare = [&](const Bytes& x, const Bytes& y) -> Difference {
+    const auto [in_x, in_y] = std::mismatch(x.begin(), x.end(), y.begin(), y.end());
+    if (in_x == x.end() && in_y == y.end()) return std::nullopt;
+    return text("state, from byte ", in_x - x.begin(), " on (", values(x.size(), y.size(), names), " bytes)");
+  };
+  return asked(
+      a, b, [](Representation& r) { return r.state(); }, compare);
+}
+
+Result<Difference> representation_difference(Representation& a, Representation& b, const SideNames& names) {
+  const auto images = [&](const char* what) {
+    return [&names, what](const auto& x, const auto& y) { return image_difference(what, x, y, names); };
+  };
+  auto d = state_difference(a, b, names);
+  if (!d || *d) return d;
+  d = asked(
+      a, b, [](Representation& r) { return r.u8_image(); }, images("u8 image"));
+  if (!d || *d) return d;
+  d = asked(
+      a, b, [](Representation& r) { return r.float_image(); }, images("float image"));
+  if (!d || *d) return d;
+  return asked(
+      a, b, [](Representation& r) { return r.raw_image(); }, images("raw image"));
+}
+
+Result<Difference> intolerable_difference(Representation& a, Representation& b, const SideNames& names,
+                                          Tolerance& tolerance) {
+  if (tolerance.exact_state()) {
+    auto d = state_difference(a, b, names);
+    if (!d || *d) return d;
+  }
+  if (auto r = tolerance.prepare(a); !r) return r.error();
+  return asked(
+      a, b, [](Representation& r) { return r.u8_image(); },
+      [&](const Image<uint8_t>& x, const Image<uint8_t>& y) {
+        return tolerance.accepts(x, y) ? Difference() : image_difference("u8 image", x, y, names);
+      });
+}
+
+}  // namespace
+
+Result<Difference> first_difference(Representation& a, Representation& b, const SideNames& names,
+                                    Tolerance* tolerance) {
+  auto* const scarf_a = dynamic_cast<Scarf*>(&a);
+  auto* const scarf_b = dynamic_cast<Scarf*>(&b);
+  if (scarf_a != nullptr && scarf_b != nullptr) return scarf_difference(*scarf_a, *scarf_b, names);
+  if (tolerance != nullptr) return intolerable_difference(a, b, names, *tolerance);
+  return representation_difference(a, b, names);
+}
+
+Tolerance::Tolerance(const Parameters& parameters, SensorSize sensor)
+    : parameters_(parameters), sensor_(sensor) {}
+
+Result<void> Tolerance::prepare(Representation& reference) {
+  const auto* aae = std::get_if<AaeParameters>(&parameters_);
+  if (aae == nullptr) return {};
+  const auto events = reference.events().wait();
+  if (!events) return events.error();
+  const BlockGrid grid = block_grid(*aae, sensor_);
+  // A block that once was close may have another queue ever since.
+  close_.resize(static_cast<size_t>(grid.columns) * grid.rows, false);
+  for (auto begin = events->begin(); begin != events->end();) {
+    const size_t block = grid.block_of(*begin);
+    const auto end =
+        std::find_if(begin, events->end(), [&](const Event& e) { return grid.block_of(e) != block; });
+    const std::span<const Event> queue(begin, end);
+    const bool close = aae->esvo2 ? walk_block_esvo2(queue).close : walk_block(queue).close;
+    close_blocks_ += close ? 1 : 0;
+    close_[block] = close_[block] || close;
+    begin = end;
+  }
+  return {};
+}
+
+bool Tolerance::accepts(const Image<uint8_t>& a, const Image<uint8_t>& b) {
+  if (a.pixels.size() != b.pixels.size()) return false;
+  const auto* aae = std::get_if<AaeParameters>(&parameters_);
+  uint64_t different = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    if (a.pixels[i] == b.pixels[i]) continue;
+    ++different;
+    if (aae == nullptr) {
+      if (std::abs(a.pixels[i] - b.pixels[i]) > 1) return false;
+    } else {
+      Event e;
+      e.x = static_cast<uint16_t>(i % sensor_.width);
+      e.y = static_cast<uint16_t>(i / sensor_.width);
+      if (!close_[block_grid(*aae, sensor_).block_of(e)]) return false;
+    }
+  }
+  pixels_ += different;
+  worst_pixels_ = std::max(worst_pixels_, different);
+  return aae != nullptr || different * 1000 <= a.pixels.size();
+}
+
+std::string Tolerance::report() const {
+  if (std::holds_alternative<AaeParameters>(parameters_)) {
+    return text(close_blocks_, " tests within 1e-9 of their threshold, ", pixels_, " pixels differed there");
+  }
+  return text("at most ", worst_pixels_, " of ", int64_t{sensor_.width} * sensor_.height,
+              " pixels of a picture differed, by one level");
 }
 
 }  // namespace scarf::tools

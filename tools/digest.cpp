@@ -21,16 +21,16 @@ struct DigestOptions {
 Result<int> digest(const DigestOptions& options) {
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
-  const auto implementation = make_implementation(options.stream, recording->geometry);
+  const auto implementation = make_implementation(options.stream, recording->sensor);
   if (!implementation) return implementation.error();
-  Scarf& scarf = *implementation->scarf;
+  Representation& representation = *implementation->representation;
 
   EventDigest events;
   {
     Progress progress(*recording->source);
     const auto take = [&](std::span<const Event> batch) -> Result<void> {
       for (const Event& e : batch) events.add(e);
-      const auto pushed = scarf.push(batch);
+      const auto pushed = representation.push(batch);
       if (!pushed) return pushed.error();
       progress.add(batch.size());
       return {};
@@ -38,15 +38,24 @@ Result<int> digest(const DigestOptions& options) {
     const auto played = play(*recording->source, {.batches = options.stream.batches}, {.events = take});
     if (!played) return played.error();
   }
-  const auto snapshot = scarf.snapshot().wait();
-  if (!snapshot) return snapshot.error();
-  const auto image = scarf.u8_image().wait();
+  const auto state = representation.state().wait();
+  if (!state) return state.error();
+  const auto image = representation.u8_image().wait();
   if (!image) return image.error();
   if (!options.dump.empty()) {
+    auto* const scarf = dynamic_cast<Scarf*>(&representation);
+    if (scarf == nullptr) {
+      return Error{ErrorCode::illegal_parameter,
+                   text("--dump is offered for scarf only; leave it out with --representation ",
+                        options.stream.representation)};
+    }
+    const auto snapshot = scarf->snapshot().wait();
+    if (!snapshot) return snapshot.error();
     if (auto r = write_state_dump(options.dump, *snapshot); !r) return r.error();
   }
-  std::cout << text("state ", state_digest(*snapshot), "\nimage ", image_digest(*image), "\nevents ",
-                    events.hex(), "\n");
+  Digest of_state;
+  of_state.add(*state);
+  std::cout << text("state ", of_state.hex(), "\nimage ", image_digest(*image), "\nevents ", events.hex(), "\n");
   return 0;
 }
 

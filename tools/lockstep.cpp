@@ -21,8 +21,8 @@ bool equal(const Result<PushReport>& a, const Result<PushReport>& b) {
 
 }  // namespace
 
-Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options, Scarf& a, Scarf& b,
-                                 const SideNames& names) {
+Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options, Representation& a,
+                                 Representation& b, const SideNames& names, Tolerance* tolerance) {
   Lockstep run;
   Progress progress(source);
   const auto push_and_compare = [&](std::span<const Event> events) -> Result<void> {
@@ -37,7 +37,7 @@ Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options
     } else if (!report_a) {
       return report_a.error();
     } else {
-      auto difference = first_difference(a, b, names);
+      auto difference = first_difference(a, b, names, tolerance);
       if (!difference) return difference.error();
       run.difference = *std::move(difference);
     }
@@ -51,15 +51,17 @@ Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options
   return run;
 }
 
-Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const PlayOptions& options, Scarf& a,
-                          Scarf& b, const SideNames& names) {
+Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const PlayOptions& options,
+                          Representation& a, Representation& b, const SideNames& names,
+                          const std::function<std::unique_ptr<Tolerance>()>& make_tolerance) {
   uint64_t good = failed.agreed;
   while (good + 1 < failed.events) {
     PlayOptions shorter = options;
     shorter.max_events = good + (failed.events - good) / 2;
     const auto source = open_again();
     if (!source || !a.reset() || !b.reset()) break;
-    auto run = run_in_lockstep(**source, shorter, a, b, names);
+    const auto tolerance = make_tolerance ? make_tolerance() : nullptr;
+    auto run = run_in_lockstep(**source, shorter, a, b, names, tolerance.get());
     if (!run) break;
     if (run->difference) {
       failed = *std::move(run);

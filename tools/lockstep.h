@@ -22,17 +22,18 @@ struct Lockstep {
 };
 
 /// Errors: what the source returned, or what both sides said to the same batch.
-Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options, Scarf& a, Scarf& b,
-                                 const SideNames& names);
+Result<Lockstep> run_in_lockstep(EventSource& source, const PlayOptions& options, Representation& a,
+                                 Representation& b, const SideNames& names, Tolerance* tolerance = nullptr);
 
 /// Opens the same recording again, from its start.
 using OpenAgain = std::function<Result<std::unique_ptr<EventSource>>()>;
 
 /// Shortens a run that ended with a difference, by bisection within the batch that differed: empties both
 /// sides and plays ever shorter beginnings of the stream. Where the failure does not come again, or a rerun
-/// is not possible, the shortest run known so far stays.
-Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const PlayOptions& options, Scarf& a,
-                          Scarf& b, const SideNames& names);
+/// is not possible, the shortest run known so far stays. Each rerun has a tolerance of its own.
+Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const PlayOptions& options,
+                          Representation& a, Representation& b, const SideNames& names,
+                          const std::function<std::unique_ptr<Tolerance>()>& make_tolerance = {});
 
 /// Writes the first `events` events of a recording as text, so that a failure can be told and tried again.
 /// Errors: whatever the recording returned; io.

@@ -34,32 +34,70 @@ Result<Geometry> explicit_grid(const StreamOptions& o, SensorSize sensor) {
        .capacity = *o.capacity});
 }
 
+// Parameters of the registry become options of the same name, each once, whoever has it.
+void add_parameter_options(CLI::App& app, StreamOptions& o) {
+  struct Shared {
+    std::string description;
+    std::string owners;
+  };
+  std::map<std::string, Shared> shared;
+  for (const RepresentationInfo& info : representations().subspan(1)) {
+    for (const ParameterInfo& p : info.parameters) {
+      Shared& s = shared[p.name];
+      s.owners += text(s.owners.empty() ? "" : "; ", info.name, ": ", p.range, ", default ", p.value);
+      if (s.description.empty()) s.description = p.description;
+    }
+  }
+  for (const auto& [name, s] : shared) {
+    if (name == "accumulation") continue;  // SCARF's option serves
+    app.add_option_function<std::string>(
+           "--" + name, [&o, key = name](const std::string& word) { o.parameters[key] = word; },
+           text(s.description, " (", s.owners, ")"))
+        ->group("Other representations");
+  }
+}
+
+void add_representation_options(CLI::App& app, StreamOptions& o, std::vector<std::string> names) {
+  for (const RepresentationInfo& info : representations()) names.push_back(info.name);
+  app.add_option("--representation", o.representation, "Which picture; see scarf representations")
+      ->check(CLI::IsMember(names));
+  const auto only_scarf = [&o](CLI::Option* option, const std::string& group) {
+    o.grid_options.push_back(option->group(group));
+  };
+  const std::string grid = "Patch grid of scarf";
+  only_scarf(add_parsed_option(app, "--preset", o.preset, parse_preset,
+                               "paper (default), light, event_driven, event_driven_flex or explicit"),
+             grid);
+  only_scarf(app.add_option("--cell", o.cell, "Pixels of a cell, default 9; WxH with preset explicit"), grid);
+  only_scarf(app.add_option("--ratio", o.ratio,
+                            "Receptive field ratio, default 1.2; paper and event_driven_flex only"),
+             grid);
+  only_scarf(app.add_option("--alpha", o.alpha, "Scale of the capacity, default 2.0"), grid);
+  const std::string with_explicit = "Patch grid of scarf, preset explicit";
+  only_scarf(add_parsed_option(app, "--origin", o.origin, parse_comma, "X,Y: first pixel of the first cell"),
+             with_explicit);
+  only_scarf(add_parsed_option(app, "--grid", o.grid, parse_by, "WxH: number of patches"), with_explicit);
+  only_scarf(add_parsed_option(app, "--margin-lo", o.margin_lo, parse_comma, "X,Y: field before the cell"),
+             with_explicit);
+  only_scarf(add_parsed_option(app, "--margin-hi", o.margin_hi, parse_comma, "X,Y: field behind the cell"),
+             with_explicit);
+  only_scarf(
+      add_parsed_option(app, "--capacity", o.capacity, parse_whole<int32_t>, "Events that a patch holds"),
+      with_explicit);
+  app.add_option("--accumulation", o.accumulation,
+                 "Brightness of one event, default 0.3 (scarf; time_window with --counts)")
+      ->each([&o](const std::string& word) { o.parameters["accumulation"] = word; });
+  add_parameter_options(app, o);
+}
+
 }  // namespace
 
-void add_stream_options(CLI::App& app, StreamOptions& o) {
+void add_stream_options(CLI::App& app, StreamOptions& o, const std::vector<std::string>& more) {
   app.add_option("file", o.file, "Recording; - is standard input")->required();
   add_parsed_option(app, "--geometry", o.sensor, parse_sensor,
                     "Sensor size WxH, where the recording does not say");
 
-  const std::string grid = "Patch grid";
-  add_parsed_option(app, "--preset", o.preset, parse_preset,
-                    "paper (default), light, event_driven, event_driven_flex or explicit")
-      ->group(grid);
-  app.add_option("--cell", o.cell, "Pixels of a cell, default 9; WxH with preset explicit")->group(grid);
-  app.add_option("--ratio", o.ratio, "Receptive field ratio, default 1.2; paper and event_driven_flex only")
-      ->group(grid);
-  app.add_option("--alpha", o.alpha, "Scale of the capacity, default 2.0")->group(grid);
-  app.add_option("--accumulation", o.accumulation, "Brightness of one event, default 0.3")->group(grid);
-  const std::string with_explicit = "Patch grid, preset explicit";
-  add_parsed_option(app, "--origin", o.origin, parse_comma, "X,Y: first pixel of the first cell")
-      ->group(with_explicit);
-  add_parsed_option(app, "--grid", o.grid, parse_by, "WxH: number of patches")->group(with_explicit);
-  add_parsed_option(app, "--margin-lo", o.margin_lo, parse_comma, "X,Y: field before the cell")
-      ->group(with_explicit);
-  add_parsed_option(app, "--margin-hi", o.margin_hi, parse_comma, "X,Y: field behind the cell")
-      ->group(with_explicit);
-  add_parsed_option(app, "--capacity", o.capacity, parse_whole<int32_t>, "Events that a patch holds")
-      ->group(with_explicit);
+  add_representation_options(app, o, more);
 
   const std::string work = "Work";
   add_parsed_option(app, "--batch", o.batches, parse_batch_sizes,
@@ -96,32 +134,71 @@ Result<Geometry> grid_on(const StreamOptions& o, SensorSize sensor) {
   return make_geometry(o.preset, sensor, parameters);
 }
 
+Result<Parameters> parameters_of(const StreamOptions& o) {
+  for (const CLI::Option* option : o.grid_options) {
+    if (option->count() == 0) continue;
+    return illegal(text(option->get_name(), " is used by scarf only; leave it out with --representation ",
+                        o.representation));
+  }
+  return parse_parameters(o.representation, o.parameters);
+}
+
 Result<OpenRecording> open_recording(const StreamOptions& options) {
   auto source = open_events(options.file, {.sensor = options.sensor});
   if (!source) return source.error();
   const auto sensor = require_sensor(**source, options.file);
   if (!sensor) return sensor.error();
-  const auto geometry = grid_on(options, *sensor);
-  if (!geometry) return geometry.error();
-  return OpenRecording{*std::move(source), *geometry};
+  return OpenRecording{*std::move(source), *sensor};
 }
 
-Result<Implementation> make_reference(const StreamOptions& options, const Geometry& geometry) {
-  auto scarf = make_reference_scarf(geometry, options.accumulation);
-  if (!scarf) return scarf.error();
-  return Implementation{*std::move(scarf), "CPU reference"};
+namespace {
+
+// What the options ask for: a patch grid for SCARF, parameters for the others.
+struct Wish {
+  std::optional<Geometry> grid;
+  Parameters parameters;
+};
+
+Result<Wish> wish_of(const StreamOptions& options, SensorSize sensor) {
+  if (options.representation != "scarf") {
+    const auto parameters = parameters_of(options);
+    if (!parameters) return parameters.error();
+    return Wish{std::nullopt, *parameters};
+  }
+  if (const auto r = parse_parameters("scarf", options.parameters); !r) return r.error();
+  const auto grid = grid_on(options, sensor);
+  if (!grid) return grid.error();
+  return Wish{*grid, {}};
 }
 
-Result<Implementation> make_gpu(const StreamOptions& options, const Geometry& geometry) {
+template <class Made>
+Result<Implementation> implementation(Result<Made> made, const std::string& name) {
+  if (!made) return made.error();
+  return Implementation{*std::move(made), name};
+}
+
+}  // namespace
+
+Result<Implementation> make_reference(const StreamOptions& options, SensorSize sensor) {
+  const auto wish = wish_of(options, sensor);
+  if (!wish) return wish.error();
+  const std::string name = "CPU reference";
+  if (wish->grid) return implementation(make_reference_scarf(*wish->grid, options.accumulation), name);
+  return implementation(make_reference_representation(wish->parameters, sensor), name);
+}
+
+Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor) {
+  const auto wish = wish_of(options, sensor);
+  if (!wish) return wish.error();
   const auto context = GpuContext::create(options.device);
   if (!context) return context.error();
-  auto scarf = make_gpu_scarf(*context, geometry, options.accumulation);
-  if (!scarf) return scarf.error();
-  return Implementation{*std::move(scarf), (*context)->device().name};
+  const std::string name = (*context)->device().name;
+  if (wish->grid) return implementation(make_gpu_scarf(*context, *wish->grid, options.accumulation), name);
+  return implementation(make_gpu_representation(*context, wish->parameters, sensor), name);
 }
 
-Result<Implementation> make_implementation(const StreamOptions& options, const Geometry& geometry) {
-  return options.cpu ? make_reference(options, geometry) : make_gpu(options, geometry);
+Result<Implementation> make_implementation(const StreamOptions& options, SensorSize sensor) {
+  return options.cpu ? make_reference(options, sensor) : make_gpu(options, sensor);
 }
 
 }  // namespace scarf::tools

@@ -1,10 +1,12 @@
-// Options that render, digest and verify share: the recording, the patch grid, the device.
+// Options that render, digest and verify share: the recording, the representation, the device.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scarf/geometry.h"
 #include "scarf/gpu.h"
@@ -17,6 +19,10 @@ namespace scarf::tools {
 struct StreamOptions {
   std::string file;
   std::optional<SensorSize> sensor;
+
+  std::string representation = "scarf";
+  std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
+  std::vector<const CLI::Option*> grid_options;   ///< for SCARF only
 
   Preset preset = Preset::paper;
   std::string cell;  ///< K, or WxH with preset explicit; empty: the default
@@ -45,28 +51,35 @@ CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, Target& t
       });
 }
 
-/// The recording, the grid, the batches and the device.
-void add_stream_options(CLI::App& app, StreamOptions& options);
+/// The recording, the representation and its parameters, the batches and the device.
+/// `more`: further names that the option --representation takes.
+void add_stream_options(CLI::App& app, StreamOptions& options, const std::vector<std::string>& more = {});
+/// Each of representations(), with its defaults.
+inline const std::string kAllRepresentations = "all";
 
 /// The patch grid that the options ask for on a sensor.
 /// Errors: illegal_parameter, naming the option that is missing, wrong or not used by the preset.
 Result<Geometry> grid_on(const StreamOptions& options, SensorSize sensor);
 
-/// A recording and the patch grid for it.
+/// The parameters of a representation other than SCARF. Errors: illegal_parameter, also for options that only
+/// SCARF has.
+Result<Parameters> parameters_of(const StreamOptions& options);
+
+/// A recording and the size of its sensor.
 struct OpenRecording {
   std::unique_ptr<EventSource> source;
-  Geometry geometry;
+  SensorSize sensor;
 };
 Result<OpenRecording> open_recording(const StreamOptions& options);
 
-/// A SCARF implementation and the name to show for it.
+/// A representation and the name to show for who computes it.
 struct Implementation {
-  std::unique_ptr<Scarf> scarf;
+  std::unique_ptr<Representation> representation;
   std::string name;
 };
-Result<Implementation> make_reference(const StreamOptions& options, const Geometry& geometry);
-Result<Implementation> make_gpu(const StreamOptions& options, const Geometry& geometry);
+Result<Implementation> make_reference(const StreamOptions& options, SensorSize sensor);
+Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor);
 /// The one that the options choose.
-Result<Implementation> make_implementation(const StreamOptions& options, const Geometry& geometry);
+Result<Implementation> make_implementation(const StreamOptions& options, SensorSize sensor);
 
 }  // namespace scarf::tools

@@ -5,20 +5,21 @@
 #include <iostream>
 
 #include "core/text.h"
+#include "scarf/reference.h"
 #include "tools/commands.h"
 #include "tools/frame_writer.h"
+#include "tools/mosaic.h"
 #include "tools/options.h"
 #include "tools/pictures.h"
 #include "tools/play.h"
 #include "tools/progress.h"
-#include "tools/window_comparison.h"
 
 namespace scarf::tools {
 namespace {
 
 constexpr size_t kFramesInFlight = 4;          // enough for a device to work while earlier frames are encoded
 constexpr int64_t kDefaultWindow = 33;         // milliseconds: one frame at 30 Hz
-constexpr int64_t kMaxWindow = 1'000'000'000;  // milliseconds: 11 days
+constexpr int64_t kMaxWindow = 100'000;       // milliseconds
 constexpr double kMinVideoFps = 0.1;
 constexpr double kMaxVideoFps = 1000;
 
@@ -72,23 +73,28 @@ Result<std::unique_ptr<Instants>> make_instants(const RenderOptions& options, Ou
   return frames_at_times(*std::move(times));
 }
 
+struct Shown {
+  std::unique_ptr<Representation> representation;
+  std::string title;
+};
+
 // Renders frames while later events are pushed: the last few images stay on their way.
 class Renderer {
  public:
-  Renderer(Scarf& scarf, FrameWriter& writer, std::optional<int64_t> window)
-      : scarf_(scarf), writer_(writer) {
-    if (window) window_.emplace(scarf.geometry().sensor(), *window);
-  }
+  Renderer(std::vector<Shown> shown, FrameWriter& writer) : shown_(std::move(shown)), writer_(writer) {}
 
   Result<void> push(std::span<const Event> events) {
-    if (window_) window_->add(events);
-    const auto report = scarf_.push(events);
-    if (!report) return report.error();
+    for (const Shown& s : shown_) {
+      const auto report = s.representation->push(events);
+      if (!report) return report.error();
+    }
     return {};
   }
 
   Result<void> ask(const Frame& frame) {
-    in_flight_.push_back({frame, scarf_.u8_image(), window_ ? window_->picture(frame.t) : cv::Mat()});
+    InFlight asked{frame, {}};
+    for (const Shown& s : shown_) asked.images.push_back(s.representation->u8_image(frame.t));
+    in_flight_.push_back(std::move(asked));
     ++frames_;
     return in_flight_.size() > kFramesInFlight ? write_oldest() : Result<void>();
   }
@@ -105,27 +111,54 @@ class Renderer {
  private:
   struct InFlight {
     Frame frame;
-    Pending<Image<uint8_t>> image;
-    cv::Mat window;  // empty without a comparison
+    std::vector<Pending<Image<uint8_t>>> images;
   };
 
   Result<void> write_oldest() {
     InFlight oldest = std::move(in_flight_.front());
     in_flight_.pop_front();
-    const auto image = oldest.image.wait();
-    if (!image) return image.error();
-    const cv::Mat picture = as_picture(*image);
-    if (!window_) return writer_.write(oldest.frame, picture);
-    return writer_.write(oldest.frame, side_by_side(picture, "SCARF", oldest.window,
-                                                    text("last ", window_->milliseconds(), " ms")));
+    std::vector<Image<uint8_t>> images;
+    for (auto& pending : oldest.images) {
+      auto image = pending.wait();
+      if (!image) return image.error();
+      images.push_back(*std::move(image));
+    }
+    if (images.size() == 1) return writer_.write(oldest.frame, as_picture(images.front()));
+    std::vector<Tile> tiles;
+    for (size_t i = 0; i < images.size(); ++i) tiles.push_back({shown_[i].title, as_picture(images[i])});
+    return writer_.write(oldest.frame, mosaic(tiles));
   }
 
-  Scarf& scarf_;
+  const std::vector<Shown> shown_;
   FrameWriter& writer_;
-  std::optional<TimeWindow> window_;
   std::deque<InFlight> in_flight_;
   uint64_t frames_ = 0;
 };
+
+// What the options ask for, in the order of the tiles, and the name of who computes it.
+struct Choice {
+  std::vector<Shown> shown;
+  std::string implementation;
+};
+
+Result<Choice> choose(const RenderOptions& options, SensorSize sensor) {
+  Choice choice;
+  for (const RepresentationInfo& info : representations()) {
+    StreamOptions one = options.stream;
+    if (one.representation == kAllRepresentations) one.representation = info.name;
+    if (one.representation != info.name) continue;
+    auto made = make_implementation(one, sensor);
+    if (!made) return made.error();
+    choice.shown.push_back({std::move(made->representation), info.title});
+    choice.implementation = made->name;
+  }
+  if (options.window) {
+    auto window = make_reference_representation(TimeWindowParameters{.window = *options.window * 1000}, sensor);
+    if (!window) return window.error();
+    choice.shown.push_back({*std::move(window), text("last ", *options.window, " ms")});
+  }
+  return choice;
+}
 
 Result<int> render(const RenderOptions& options) {
   const auto kind = output_kind(options.output);
@@ -135,12 +168,12 @@ Result<int> render(const RenderOptions& options) {
   if (!instants) return instants.error();
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
-  const auto implementation = make_implementation(options.stream, recording->geometry);
-  if (!implementation) return implementation.error();
+  auto choice = choose(options, recording->sensor);
+  if (!choice) return choice.error();
   const auto writer = make_frame_writer(options.output, *kind, options.video_fps.value_or(30));
   if (!writer) return writer.error();
 
-  Renderer renderer(*implementation->scarf, **writer, options.window);
+  Renderer renderer(std::move(choice->shown), **writer);
   uint64_t events = 0;
   double seconds = 0;
   {
@@ -159,7 +192,7 @@ Result<int> render(const RenderOptions& options) {
   }
   std::cout << text("rendered ", renderer.frames(), " frames of ", events, " events in ", seconds, " s (",
                     static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
-                    " events/s with reading and writing) on ", implementation->name, "\n");
+                    " events/s with reading and writing) on ", choice->implementation, "\n");
   return 0;
 }
 
@@ -168,7 +201,7 @@ Result<int> render(const RenderOptions& options) {
 void add_render(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("render", "Pictures of a recording");
   auto options = std::make_shared<RenderOptions>();
-  add_stream_options(*app, options->stream);
+  add_stream_options(*app, options->stream, {kAllRepresentations});
   app->add_option("-o,--output", options->output,
                   "A folder of PNG frames, a video (.mp4, .avi), or one image of the end (.png, .pgm)")
       ->required();

@@ -16,6 +16,20 @@ struct VerifyOptions {
   std::string failing;  ///< where the failing prefix goes
 };
 
+// None where every bit must be the same.
+std::unique_ptr<Tolerance> tolerance_of(const StreamOptions& options, SensorSize sensor) {
+  if (options.representation == "scarf") return nullptr;
+  const auto parameters = parameters_of(options);
+  if (!parameters || info_of(*parameters).exact) return nullptr;
+  return std::make_unique<Tolerance>(*parameters, sensor);
+}
+
+// What was compared.
+std::string subject(const StreamOptions& options, Representation& r) {
+  if (const auto* scarf = dynamic_cast<Scarf*>(&r)) return text(scarf->geometry().patches(), " patches");
+  return text(options.representation, " on ", r.sensor().width, "x", r.sensor().height);
+}
+
 Result<int> verify(const VerifyOptions& options) {
   if (options.stream.cpu) {
     return Error{ErrorCode::illegal_parameter,
@@ -23,21 +37,24 @@ Result<int> verify(const VerifyOptions& options) {
   }
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
-  const auto reference = make_reference(options.stream, recording->geometry);
+  const auto reference = make_reference(options.stream, recording->sensor);
   if (!reference) return reference.error();
-  const auto device = make_gpu(options.stream, recording->geometry);
+  const auto device = make_gpu(options.stream, recording->sensor);
   if (!device) return device.error();
 
-  Scarf& a = *reference->scarf;
-  Scarf& b = *device->scarf;
+  Representation& a = *reference->representation;
+  Representation& b = *device->representation;
   const SideNames names{reference->name, device->name};
   PlayOptions play_options{.batches = options.stream.batches};
   if (options.max_events) play_options.max_events = *options.max_events;
-  auto run = run_in_lockstep(*recording->source, play_options, a, b, names);
+  const auto make_tolerance = [&] { return tolerance_of(options.stream, recording->sensor); };
+  const auto tolerance = make_tolerance();
+  auto run = run_in_lockstep(*recording->source, play_options, a, b, names, tolerance.get());
   if (!run) return run.error();
   if (!run->difference) {
-    std::cout << text("identical: ", run->events, " events, ", run->batches, " batches, ",
-                      recording->geometry.patches(), " patches, device ", device->name, "\n");
+    std::cout << text(tolerance ? "within the bound: " : "identical: ", run->events, " events, ",
+                      run->batches, " batches, ", subject(options.stream, a), ", device ", device->name,
+                      tolerance ? text("; ", tolerance->report()) : "", "\n");
     return 0;
   }
   if (options.stream.file == "-") {
@@ -47,10 +64,10 @@ Result<int> verify(const VerifyOptions& options) {
     return 1;
   }
   const auto open_again = [&] { return open_events(options.stream.file, {.sensor = options.stream.sensor}); };
-  const Lockstep failed = shortest_failure(*std::move(run), open_again, play_options, a, b, names);
+  const Lockstep failed = shortest_failure(*std::move(run), open_again, play_options, a, b, names, make_tolerance);
   std::cout << text("different after ", failed.events, " events, ", failed.batches,
                     " batches: ", *failed.difference, "\n");
-  if (auto r = write_prefix(open_again, recording->geometry.sensor(), failed.events, options.failing); !r) {
+  if (auto r = write_prefix(open_again, recording->sensor, failed.events, options.failing); !r) {
     return r.error();
   }
   std::cout << text("failing prefix: ", options.failing, "\n");

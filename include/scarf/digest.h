@@ -50,7 +50,4 @@ std::string state_digest(const Snapshot& snapshot);
 /// Image digest: over the 8-bit pixels, row-major, no header.
 std::string image_digest(const Image<uint8_t>& image);
 
-/// The bytes that the state digest of one patch covers.
-std::vector<uint8_t> state_bytes(const Snapshot& snapshot, size_t patch);
-
 }  // namespace scarf

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scarf/parameters.h"
 #include "scarf/scarf.h"
 
 namespace scarf {
@@ -90,9 +91,9 @@ struct StageTime {
   uint64_t nanoseconds = 0;
 };
 
-/// A SCARF state in device memory. push() returns when the events are in staging memory; see Scarf for the
-/// rest.
-class GpuScarf : public Scarf {
+/// A representation in device memory. push() returns when the events are in staging memory; see
+/// Representation for the rest.
+class GpuRepresentation : public virtual Representation {
  public:
   /// Staging memory for n events (up to max_acquire()), to be filled in place: the first `count` of them
   /// become the next batch at commit(). Acquire and commit belong to the pushing thread, and alternate; a
@@ -113,11 +114,21 @@ class GpuScarf : public Scarf {
   virtual uint64_t memory_bytes() const = 0;
 };
 
+/// A SCARF state in device memory.
+class GpuScarf : public Scarf, public GpuRepresentation {};
+
 /// Errors: illegal_parameter as checked_geometry and make_levels; out_of_memory, naming the size and the
 /// limit, if the state does not fit the device.
 Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
                                                  const Geometry& geometry,
                                                  double accumulation = kDefaultAccumulation,
                                                  const GpuOptions& options = {});
+
+/// Any representation on a sensor. Errors: illegal_parameter as checked_parameters, and for a sensor that the
+/// representation cannot be on; device, if the device lacks something that it needs; out_of_memory.
+Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(std::shared_ptr<GpuContext> context,
+                                                                   const Parameters& parameters,
+                                                                   SensorSize sensor,
+                                                                   const GpuOptions& options = {});
 
 }  // namespace scarf

@@ -26,6 +26,16 @@ class [[nodiscard]] Pending {
   /// Waits for the result and hands it over; to be called once.
   Result<T> wait() { return wait_(); }
 
+  /// The result of `function(value)` for the value that this one brings; errors stay as they are.
+  template <class U, class Function>
+  Pending<U> then(Function function) && {
+    return Pending<U>(std::move(ready_), [wait = std::move(wait_), function]() mutable -> Result<U> {
+      Result<T> value = wait();
+      if (!value) return value.error();
+      return function(std::move(value).value());
+    });
+  }
+
  private:
   std::function<bool()> ready_;
   std::function<Result<T>()> wait_;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "scarf/parameters.h"
 #include "scarf/scarf.h"
 
 namespace scarf {
@@ -11,5 +12,10 @@ namespace scarf {
 /// Errors: illegal_parameter, as checked_geometry and make_levels.
 Result<std::unique_ptr<Scarf>> make_reference_scarf(const Geometry& geometry,
                                                     double accumulation = kDefaultAccumulation);
+
+/// Any representation on a sensor. Errors: illegal_parameter as checked_parameters, and for a sensor that the
+/// representation cannot be on.
+Result<std::unique_ptr<Representation>> make_reference_representation(const Parameters& parameters,
+                                                                      SensorSize sensor);
 
 }  // namespace scarf

@@ -9,19 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "scarf/event.h"
 #include "scarf/geometry.h"
-#include "scarf/image.h"
-#include "scarf/pending.h"
-#include "scarf/result.h"
+#include "scarf/representation.h"
 
 namespace scarf {
-
-/// What became of the events of one push.
-struct PushReport {
-  uint64_t accepted = 0;  ///< events taken from the front of the batch, those outside the sensor included
-  uint64_t outside = 0;   ///< accepted events outside the sensor: counted and dropped
-};
 
 /// Everything a SCARF state is: what the state digest covers.
 struct Snapshot {
@@ -38,37 +29,27 @@ struct Snapshot {
   }
 };
 
+/// What the state digest covers of one patch, little-endian: its total (u64), then for each filled slot in slot
+/// order x u16, y u16, p u8, active u8, t i64.
+std::vector<uint8_t> state_bytes(const Snapshot& snapshot, size_t patch);
+
 /// Order of extracted events. Both orders list the events of a patch from oldest to newest.
 enum class EventOrder {
   by_patch,  ///< patch id ascending
   by_time,   ///< merged by t; equal times keep the by_patch order
 };
 
-/// One stream's SCARF state. Implementations (the CPU reference, the GPU) agree bit for bit on everything
-/// they hand out, for any stream and any way of cutting it into batches.
-///
-/// Threads: one thread pushes and resets; any thread queries. A query sees exactly the pushes that returned
-/// before it was asked, and never changes the state.
-class Scarf {
+/// One stream's SCARF state: a Representation with more to ask for.
+class Scarf : public virtual Representation {
  public:
-  virtual ~Scarf() = default;
-
   virtual const Geometry& geometry() const = 0;
-
-  /// Appends a batch (any size, 0 included). Events outside the sensor are counted and dropped.
-  /// Errors: refused_batch, naming the event, if an event inside the sensor has p > 1 or is 2^48 us or more
-  /// away from the stream's first event; then nothing of the batch is stored.
-  virtual Result<PushReport> push(std::span<const Event> events) = 0;
-
-  /// Empties the state, as if newly made.
-  virtual Result<void> reset() = 0;
 
   /// Stored active events per pixel; 0 where no patch is active.
   virtual Pending<Image<int32_t>> count_image(PolarityMode mode = PolarityMode::merged) = 0;
   /// Dense image, 8 bits: Levels::u8 of the counts. PolarityMode::difference is refused.
-  virtual Pending<Image<uint8_t>> u8_image(PolarityMode mode = PolarityMode::merged) = 0;
+  virtual Pending<Image<uint8_t>> u8_planes(PolarityMode mode) = 0;
   /// Dense image, float: Levels::f32 of the counts. PolarityMode::difference is refused.
-  virtual Pending<Image<float>> float_image(PolarityMode mode = PolarityMode::merged) = 0;
+  virtual Pending<Image<float>> float_planes(PolarityMode mode) = 0;
 
   /// All active stored events, with the coordinates and times they were pushed with.
   virtual Pending<std::vector<Event>> active_events(EventOrder order = EventOrder::by_patch) = 0;
@@ -77,6 +58,18 @@ class Scarf {
   virtual Pending<std::vector<Event>> patch_events(int64_t patch, bool active_only) = 0;
   /// Totals and every slot.
   virtual Pending<Snapshot> snapshot() = 0;
+
+  // The Representation: both polarities alike.
+  SensorSize sensor() const final { return geometry().sensor(); }
+  Pending<Image<uint8_t>> u8_image(std::optional<int64_t> = {}) final {
+    return u8_planes(PolarityMode::merged);
+  }
+  Pending<Image<float>> float_image(std::optional<int64_t> = {}) final {
+    return float_planes(PolarityMode::merged);
+  }
+  Pending<Image<int64_t>> raw_image() final;
+  Pending<std::vector<Event>> events() final { return active_events(EventOrder::by_patch); }
+  Pending<std::vector<uint8_t>> state() final;
 };
 
 }  // namespace scarf

@@ -1,5 +1,7 @@
 #include "core/batch_check.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 
 namespace scarf {
@@ -20,7 +22,8 @@ Error refusal(std::span<const Event> events, size_t index, int64_t t_first) {
 
 Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize sensor,
                                  std::optional<int64_t> t_first) {
-  CheckedBatch batch{0, t_first};
+  CheckedBatch batch;
+  batch.t_first = t_first;
   size_t i = 0;
   for (; i < events.size() && !batch.t_first; ++i) {
     if (sensor.contains(events[i]))
@@ -33,12 +36,24 @@ Result<CheckedBatch> check_batch(std::span<const Event> events, SensorSize senso
   constexpr auto kReach = static_cast<int64_t>(kMaxTimeDistance - 1);
   const int64_t earliest = *batch.t_first < INT64_MIN + kReach ? INT64_MIN : *batch.t_first - kReach;
   const int64_t latest = *batch.t_first > INT64_MAX - kReach ? INT64_MAX : *batch.t_first + kReach;
-  for (i = i > 0 ? i - 1 : 0; i < events.size(); ++i) {
+  int64_t newest = 0;
+  int64_t largest = INT64_MIN;
+  uint64_t inside_count = 0;
+  const size_t begin = i > 0 ? i - 1 : 0;
+  for (i = begin; i < events.size(); ++i) {
     const Event& e = events[i];
     const bool inside = sensor.contains(e);
     const bool storable = e.p <= 1 && e.t >= earliest && e.t <= latest;
     if (inside && !storable) return refusal(events, i, *batch.t_first);
-    batch.outside += inside ? 0 : 1;
+    if (!inside) continue;
+    ++inside_count;
+    newest = e.t;
+    largest = std::max(largest, e.t);
+  }
+  batch.outside += events.size() - begin - inside_count;
+  if (inside_count > 0) {
+    batch.t_newest = newest;
+    batch.t_largest = largest;
   }
   return batch;
 }

@@ -22,6 +22,12 @@ inline Result<void> check_patch(const Geometry& geometry, int64_t patch) {
                text("patch is ", patch, ", legal is 0 to ", geometry.patches() - 1)};
 }
 
+/// For the representations that keep no events.
+inline Error no_events() {
+  return {ErrorCode::illegal_parameter,
+          "this representation keeps no events; scarf, aae and time_window with counts do"};
+}
+
 /// Events that come in by_patch order, in the order asked for.
 inline std::vector<Event> ordered(std::vector<Event> events, EventOrder order) {
   if (order == EventOrder::by_time) {

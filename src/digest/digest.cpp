@@ -54,24 +54,6 @@ std::string EventDigest::hex() {
   return digest_.hex();
 }
 
-std::vector<uint8_t> state_bytes(const Snapshot& snapshot, size_t patch) {
-  const Geometry& g = snapshot.geometry;
-  const auto i = static_cast<int32_t>(patch % g.x.grid);
-  const auto j = static_cast<int32_t>(patch / g.x.grid);
-  const int64_t filled = snapshot.filled(patch);
-  std::vector<uint8_t> bytes;
-  bytes.reserve(8 + 14 * filled);
-  append_little_endian(bytes, snapshot.totals[patch]);
-  for (const Event& e : snapshot.ring(patch).first(filled)) {
-    append_little_endian(bytes, e.x);
-    append_little_endian(bytes, e.y);
-    append_little_endian(bytes, e.p);
-    append_little_endian(bytes, static_cast<uint8_t>(g.x.active(e.x, i) && g.y.active(e.y, j)));
-    append_little_endian(bytes, static_cast<uint64_t>(e.t));
-  }
-  return bytes;
-}
-
 std::string state_digest(const Snapshot& snapshot) {
   Digest digest;
   for (size_t patch = 0; patch < snapshot.totals.size(); ++patch) digest.add(state_bytes(snapshot, patch));

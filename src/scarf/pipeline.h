@@ -1,48 +1,51 @@
 // The stages of SCARF on a device: their kernels, the buffers of one stream's state, and how the work is
-// recorded. Knows nothing of threads, staging or waiting.
+// recorded.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "scarf/image.h"
+#include "gpu/pipeline.h"
+#include "gpu/stream.h"
+#include "gpu/tone.h"
 #include "scarf/plan.h"
 #include "scarf/scarf.h"
 #include "shaders/layout.h"
-#include "vulkan/commands.h"
 
 namespace scarf {
 
 /// Where extracted events go: host-readable, with room for as many as there are slots.
-struct ExtractTarget {
+struct ExtractTarget : QueryTarget {
   vulkan::Buffer total;   ///< one word: how many events
   vulkan::Buffer first;   ///< events 0 .. half_events-1
   vulkan::Buffer second;  ///< the rest
   vulkan::BoundKernel scan;
   vulkan::BoundKernel write;
+
+  uint64_t memory_bytes() const override { return total.size() + first.size() + second.size(); }
 };
 
 /// The stages that read one staging buffer.
-struct PushKernels {
+struct PushKernels : EventBinding {
   vulkan::BoundKernel count;
   vulkan::BoundKernel place;
 };
 
-class ScarfPipeline {
+class ScarfPipeline : public Pipeline {
  public:
   static Result<std::unique_ptr<ScarfPipeline>> create(vulkan::Device& device, const Geometry& geometry,
                                                        const Levels& levels, const Plan& plan);
 
-  /// Binds a buffer of events (16 bytes each) to the push stages.
-  Result<PushKernels> bind_events(const vulkan::Buffer& events) const;
-  Result<std::unique_ptr<ExtractTarget>> make_extract_target() const;
+  SensorSize sensor() const override { return geometry_.sensor(); }
+  uint32_t submission_events() const override { return plan_.submission_events; }
+  Result<std::unique_ptr<EventBinding>> bind_events(const vulkan::Buffer& events) override;
+  void record_reset(vulkan::Commands& commands) override;
+  /// count, integrate and prune (where they pay), scan, place.
+  void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
+                   const StreamTimes& times) override;
+  uint64_t memory_bytes() const override { return bytes_; }
 
-  /// Empties the state.
-  void record_reset(vulkan::Commands& commands) const;
-  /// count, integrate and prune (where they pay), scan, place: events first .. first+count-1 of the bound
-  /// buffer; at most Plan::submission_events.
-  void record_push(vulkan::Commands& commands, const PushKernels& kernels, uint32_t first, uint32_t count,
-                   int64_t t_first) const;
+  Result<std::unique_ptr<ExtractTarget>> make_extract_target() const;
   /// The stages of record_push one by one, and what render and extract are given, for tests.
   layout::PatchPush patch_push(uint32_t first, uint32_t count) const;
   layout::BatchPush batch_push(uint32_t first, uint32_t count, int64_t t_first) const;
@@ -67,30 +70,28 @@ class ScarfPipeline {
   const vulkan::Buffer& heads() const { return heads_; }
   const vulkan::Buffer& totals() const { return totals_; }
   const vulkan::Buffer& slots() const { return slots_; }
-  const vulkan::Buffer& picture() const { return picture_; }
+  const vulkan::Buffer& picture() const { return tone_.picture(); }
   const Plan& plan() const { return plan_; }
-  uint64_t memory_bytes() const;
 
  private:
-  ScarfPipeline() = default;
-  Result<void> create_buffers(vulkan::Device& device, const Levels& levels);
-  Result<void> create_kernels(vulkan::Device& device);
-  const vulkan::Buffer& record_tone(vulkan::Commands& commands, PolarityMode mode,
-                                    const vulkan::BoundKernel (&tone)[2],
-                                    uint32_t pixels_per_invocation) const;
+  ScarfPipeline(vulkan::Device& device, const Geometry& geometry, const Plan& plan)
+      : device_(device), geometry_(geometry), plan_(plan) {}
+  void build(PipelineBuilder& builder, const Levels& levels);
+  uint64_t pixels(PolarityMode mode) const;
+  const Tone::Source& source(PolarityMode mode) const;
 
-  vulkan::Device* device_ = nullptr;
-  Geometry geometry_;
-  Plan plan_;
-  layout::TonePush first_levels_{};
+  vulkan::Device& device_;
+  const Geometry geometry_;
+  const Plan plan_;
+  uint64_t bytes_ = 0;
   // Buffers before kernels before bindings: each is destroyed after what uses it.
-  vulkan::Buffer ranges_, table_, alive_, heads_, totals_, slots_, counts_, polarity_counts_, levels_u8_,
-      levels_float_, picture_, cursors_;
-  vulkan::Kernel clear_, count_, integrate_, scan_, prune_, place_, render_, tone_u8_, tone_float_,
-      extract_count_, extract_scan_, extract_write_;
+  vulkan::Buffer ranges_, table_, alive_, heads_, totals_, slots_, counts_, polarity_counts_, cursors_;
+  Tone tone_;
+  vulkan::Kernel clear_, count_, integrate_, scan_, prune_, place_, render_, extract_count_, extract_scan_,
+      extract_write_;
   vulkan::BoundKernel bound_clear_, bound_integrate_, bound_scan_, bound_prune_, bound_render_,
       bound_extract_count_;
-  vulkan::BoundKernel bound_tone_u8_[2], bound_tone_float_[2];  // of counts_, of polarity_counts_
+  Tone::Source merged_, by_polarity_;
 };
 
 }  // namespace scarf

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/text.h"
+#include "gpu/submission.h"
 #include "shaders/layout.h"
 
 namespace scarf {
@@ -26,8 +27,6 @@ uint32_t most_holders(const GridAxis& axis) {
 // The table is cleared, summed and walked for every submission, so more of it is not better.
 constexpr uint64_t kTableBytesCpu = uint64_t{32} << 20;
 constexpr uint64_t kTableBytesGpu = uint64_t{256} << 20;
-constexpr uint32_t kSubmissionEventsCpu = 1u << 18;
-constexpr uint32_t kSubmissionEventsGpu = 1u << 20;
 // Chunks that keep every core of a CPU device, or every multiprocessor of a GPU, busy.
 constexpr uint32_t kTargetChunksCpu = 16;
 constexpr uint32_t kTargetChunksGpu = 2048;
@@ -36,13 +35,7 @@ constexpr uint64_t kPruneHitsPerSlot = 4;
 // An atomic on a CPU device costs as much as two loads; the sums over corners cost some of each.
 constexpr uint32_t kMostHitsCountedOneByOne = 6;
 
-constexpr uint32_t kMaxSubmissionEvents = 1u << 24;
-constexpr uint32_t kMaxStagingSlots = 16;
 constexpr uint32_t kMaxTeamLanes = 32;  // see team_ballot() in shaders/team.glsl
-
-Error illegal(std::string message) {
-  return {ErrorCode::illegal_parameter, std::move(message)};
-}
 
 }  // namespace
 
@@ -69,17 +62,7 @@ Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, c
                  text("the grid has ", geometry.patches(), " patches, a device stream at most ", kMaxPatches,
                       "; use larger cells or a smaller sensor")};
   }
-  if (options.staging_slots < 1 || options.staging_slots > kMaxStagingSlots) {
-    return illegal(text("staging_slots is ", options.staging_slots, ", legal is 1 to ", kMaxStagingSlots));
-  }
-  if (options.submission_events > kMaxSubmissionEvents) {
-    return illegal(
-        text("submission_events is ", options.submission_events, ", legal is 0 to ", kMaxSubmissionEvents));
-  }
-  if (options.chunk_events > layout::kMaxChunkEvents) {
-    return illegal(
-        text("chunk_events is ", options.chunk_events, ", legal is 0 to ", layout::kMaxChunkEvents));
-  }
+  if (auto r = check_options(options); !r) return r.error();
   Plan plan;
   plan.patches = static_cast<uint32_t>(geometry.patches());
   plan.capacity = static_cast<uint32_t>(geometry.capacity);
@@ -107,9 +90,7 @@ Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, c
 
   plan.forced_chunk_events = std::min(options.chunk_events, plan.max_chunk_events);
   const uint32_t longest = plan.forced_chunk_events != 0 ? plan.forced_chunk_events : plan.max_chunk_events;
-  const uint32_t wanted = options.submission_events != 0 ? options.submission_events
-                          : limits.cpu                   ? kSubmissionEventsCpu
-                                                         : kSubmissionEventsGpu;
+  const uint32_t wanted = scarf::submission_events(options, limits);
   plan.submission_events =
       static_cast<uint32_t>(std::min<uint64_t>(wanted, uint64_t{plan.max_chunks} * longest));
   // No more room than the longest submission can use.

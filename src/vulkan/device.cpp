@@ -114,6 +114,7 @@ struct Candidate {
   VkPhysicalDeviceProperties properties{};
   VkDriverId driver = VK_DRIVER_ID_MAX_ENUM;
   uint32_t subgroup_size = 0;
+  bool float64 = false;
   std::vector<VkQueueFamilyProperties> families;
   uint32_t compute_family = 0;
   std::optional<uint32_t> transfer_family;
@@ -150,6 +151,7 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
   c.properties = properties.properties;
   c.driver = driver.driverID;
   c.subgroup_size = subgroup.subgroupSize;
+  c.float64 = features.features.shaderFloat64 == VK_TRUE;
   c.info.name = c.properties.deviceName;
   c.info.type = type_name(c.properties.deviceType);
   c.info.uuid = hex(id.deviceUUID, VK_UUID_SIZE);
@@ -400,6 +402,7 @@ Result<void> Device::choose() {
   limits_.subgroup_size = c.subgroup_size;
   limits_.loop_trips = quirks_of(c.driver).loop_trips;
   limits_.cpu = c.info.type == "cpu";
+  limits_.float64 = c.float64;
   limits_.timestamp_period = timestamp_bits == 0 ? 0.0 : l.timestampPeriod;
   limits_.timestamp_mask = timestamp_bits >= 64 ? UINT64_MAX : (uint64_t{1} << timestamp_bits) - 1;
   table_.GetPhysicalDeviceMemoryProperties(physical_, &memory_);
@@ -429,6 +432,7 @@ Result<void> Device::choose() {
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.pNext = &features12;
   features.features.shaderInt64 = VK_TRUE;
+  features.features.shaderFloat64 = c.float64 ? VK_TRUE : VK_FALSE;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &features;

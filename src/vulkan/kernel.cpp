@@ -142,6 +142,18 @@ Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kern
   return b;
 }
 
+void BoundKernel::rebind(uint32_t binding, const Buffer& buffer) {
+  const VkDescriptorBufferInfo info = {buffer.handle(), 0, buffer.size()};
+  VkWriteDescriptorSet write{};
+  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  write.dstSet = set_;
+  write.dstBinding = binding;
+  write.descriptorCount = 1;
+  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  write.pBufferInfo = &info;
+  device_->calls().UpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+}
+
 BoundKernel::~BoundKernel() {
   if (pool_ != VK_NULL_HANDLE) device_->calls().DestroyDescriptorPool(device_->handle(), pool_, nullptr);
 }

@@ -55,6 +55,9 @@ class BoundKernel {
   static Result<BoundKernel> create(const Device& device, const Kernel& kernel,
                                     std::initializer_list<const Buffer*> buffers);
 
+  /// Binds another buffer in the place of one; the kernel must be out of use on the device.
+  void rebind(uint32_t binding, const Buffer& buffer);
+
   const Kernel& kernel() const { return *kernel_; }
   VkDescriptorSet set() const { return set_; }
 

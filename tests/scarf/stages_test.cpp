@@ -63,13 +63,14 @@ class Stages : public test::DeviceTest {
         Buffer::create(context_->vulkan(), "test", events.size() * sizeof(Event), MemoryUse::upload);
     ASSERT_TRUE(staging);
     std::memcpy(staging->mapped(), events.data(), events.size() * sizeof(Event));
-    const auto kernels = pipeline_->bind_events(*staging);
-    ASSERT_TRUE(kernels);
+    const auto binding = pipeline_->bind_events(*staging);
+    ASSERT_TRUE(binding);
+    const auto& kernels = static_cast<const PushKernels&>(**binding);
     const layout::BatchPush push = pipeline_->batch_push(0, static_cast<uint32_t>(events.size()), t_first);
 
     std::vector<uint32_t> table(size_t{push.chunks} * push.patches);
     stages::scarf_count(events, ranges_, table, push);
-    run([&] { pipeline_->record_count(commands_, *kernels, push); });
+    run([&] { pipeline_->record_count(commands_, kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "count";
 
     stages::scarf_scan(table, heads_, totals_, {push.patches, push.chunks, push.capacity});
@@ -88,7 +89,7 @@ class Stages : public test::DeviceTest {
     }
 
     stages::scarf_place(events, ranges_, table, slots_, counts_, push);
-    run([&] { pipeline_->record_place(commands_, *kernels, push); });
+    run([&] { pipeline_->record_place(commands_, kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "place";
     ASSERT_EQ(read<uint64_t>(pipeline_->slots(), slots_.size()), slots_) << "place";
     ASSERT_EQ(read<int32_t>(pipeline_->record_counts(commands_, PolarityMode::merged), counts_.size()),

@@ -182,7 +182,7 @@ TEST_F(Stream, AStateBeyondTheDeviceIsRefusedByName) {
 TEST_F(Stream, StagesAreTimedAndMemoryIsCounted) {
   auto device = device_scarf(*make_geometry(Preset::paper, {80, 60}));
   ASSERT_TRUE(device->push(make_stream(Spread::uniform, {80, 60}, 5000, 4)));
-  value_of(device->u8_image(PolarityMode::separate));
+  value_of(device->u8_planes(PolarityMode::separate));
   std::vector<std::string> stages;
   for (const StageTime& time : device->stage_times()) {
     stages.push_back(time.stage);

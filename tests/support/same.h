@@ -38,8 +38,8 @@ inline void expect_same(Scarf& device, Scarf& reference) {
   for (PolarityMode mode : {PolarityMode::merged, PolarityMode::separate, PolarityMode::difference}) {
     ASSERT_EQ(value_of(device.count_image(mode)), value_of(reference.count_image(mode)));
     if (mode == PolarityMode::difference) continue;
-    ASSERT_EQ(value_of(device.u8_image(mode)), value_of(reference.u8_image(mode)));
-    ASSERT_EQ(value_of(device.float_image(mode)), value_of(reference.float_image(mode)));
+    ASSERT_EQ(value_of(device.u8_planes(mode)), value_of(reference.u8_planes(mode)));
+    ASSERT_EQ(value_of(device.float_planes(mode)), value_of(reference.float_planes(mode)));
   }
   for (EventOrder order : {EventOrder::by_patch, EventOrder::by_time}) {
     ASSERT_EQ(value_of(device.active_events(order)), value_of(reference.active_events(order)));

@@ -29,11 +29,11 @@ class AlteredScarf final : public Scarf {
   Pending<Image<int32_t>> count_image(PolarityMode mode) override {
     return altered(scarf_->count_image(mode), alter_counts);
   }
-  Pending<Image<uint8_t>> u8_image(PolarityMode mode) override {
-    return altered(scarf_->u8_image(mode), alter_u8);
+  Pending<Image<uint8_t>> u8_planes(PolarityMode mode) override {
+    return altered(scarf_->u8_planes(mode), alter_u8);
   }
-  Pending<Image<float>> float_image(PolarityMode mode) override {
-    return altered(scarf_->float_image(mode), alter_float);
+  Pending<Image<float>> float_planes(PolarityMode mode) override {
+    return altered(scarf_->float_planes(mode), alter_float);
   }
   Pending<std::vector<Event>> active_events(EventOrder order) override {
     return altered(scarf_->active_events(order), alter_events);

@@ -8,7 +8,7 @@
 
 #include "tests/tools/event_fixtures.h"
 #include "tests/tools/temporary_folder.h"
-#include "tools/window_comparison.h"
+#include "tools/mosaic.h"
 
 namespace scarf::tools {
 namespace {
@@ -113,29 +113,19 @@ TEST(VideoWriter, NoFrameIsAnError) {
   EXPECT_THAT(finished.error().message, HasSubstr("no frame was due"));
 }
 
-TEST(TimeWindow, ShowsTheNewestEventsOnly) {
-  TimeWindow window({4, 2}, 10);
-  const std::vector<Event> events = {{.t = 9'999, .x = 0, .y = 0, .p = 1},
-                                     {.t = 10'000, .x = 1, .y = 0, .p = 0},
-                                     {.t = 19'999, .x = 2, .y = 1, .p = 1},
-                                     {.t = 5'000, .x = 2, .y = 1, .p = 1}};  // a back-step hides nothing
-  window.add(events);
-  const cv::Mat picture = window.picture(20'000);
-  const cv::Mat expected = (cv::Mat_<uint8_t>(2, 4) << 0, 255, 0, 0, 0, 0, 255, 0);
-  EXPECT_TRUE(equal(picture, expected));
-}
-
-TEST(TimeWindow, PixelsWithoutEventsStayDarkAtAnyTime) {
-  const TimeWindow window({4, 2}, 1'000'000'000);
-  EXPECT_EQ(cv::countNonZero(window.picture(0)), 0);
-  EXPECT_EQ(cv::countNonZero(window.picture(std::numeric_limits<int64_t>::min())), 0);
-}
-
-TEST(SideBySide, KeepsBothPictures) {
-  const cv::Mat both = side_by_side(ramp(0), "a", ramp(5), "b");
+TEST(Mosaic, KeepsThePictures) {
+  const cv::Mat both = mosaic({{"a", ramp(0)}, {"b", ramp(5)}});
   const int top = both.rows - 16;
   EXPECT_TRUE(equal(both(cv::Rect(0, top, 18, 16)), ramp(0)));
   EXPECT_TRUE(equal(both(cv::Rect(both.cols - 18, top, 18, 16)), ramp(5)));
+}
+
+TEST(Mosaic, IsAsSquareAsItsTilesAllow) {
+  const cv::Mat one = mosaic({{"a", ramp(0)}});
+  const cv::Mat five = mosaic(std::vector<Tile>(5, {"a", ramp(0)}));  // 3 + 2
+  EXPECT_EQ(five.cols, 3 * one.cols + 2 * 8);
+  EXPECT_EQ(five.rows, 2 * one.rows + 8);
+  EXPECT_EQ(mosaic(std::vector<Tile>(9, {"a", ramp(0)})).size(), cv::Size(five.cols, 3 * one.rows + 2 * 8));
 }
 
 }  // namespace

@@ -103,12 +103,12 @@ TEST(StreamOptions, TheParserRefusesIllegalValues) {
 
 TEST(StreamOptions, TheCpuIsTheReference) {
   const StreamOptions options = parsed("--cpu --accumulation 0.5");
-  const auto implementation = make_implementation(options, *grid_on(options, {64, 48}));
+  const auto implementation = make_implementation(options, {64, 48});
   ASSERT_TRUE(implementation.ok());
   EXPECT_EQ(implementation->name, "CPU reference");
   const Event event{.t = 0, .x = 3, .y = 4, .p = 1};
-  ASSERT_TRUE(implementation->scarf->push(std::span(&event, 1)).ok());
-  EXPECT_EQ(implementation->scarf->u8_image().wait()->at(3, 4), 128);
+  ASSERT_TRUE(implementation->representation->push(std::span(&event, 1)).ok());
+  EXPECT_EQ(implementation->representation->u8_image().wait()->at(3, 4), 128);
 }
 
 }  // namespace

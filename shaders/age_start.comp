@@ -1,0 +1,18 @@
+// Stage "start" of eros and tos: the age of each pixel that fires in the submission becomes 0.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "surface_layout.h"
+layout(local_size_x = kLinearGroup) in;
+#include "events.glsl"
+#include "invocation.glsl"
+
+layout(std430, binding = 1) readonly buffer LastEvent { uint last_event[]; };
+layout(std430, binding = 2) writeonly buffer Ages { uint ages[]; };
+layout(push_constant) uniform Push { SurfacePush push; };
+
+void main() {
+  const uint e = linear_index();
+  if (e >= push.events) return;
+  const uint pixel = pixel_of(events[push.first_event + e].z, push.width, push.height);
+  if (pixel != kOutside && last_event[pixel] == push.stamp + e) ages[pixel] = 0;
+}

@@ -1,0 +1,10 @@
+// A buffer of events as they are in memory, and where they fall on the sensor.
+layout(std430, binding = 0) readonly buffer Events { uvec4 events[]; };  // t low, t high, x | y << 16, p
+
+// The pixel of an event in row-major order; kOutside if it is not on the sensor.
+const uint kOutside = 0xFFFFFFFFu;
+uint pixel_of(uint xy, uint width, uint height) {
+  const uint x = xy & 0xFFFF;
+  const uint y = xy >> 16;
+  return x < width && y < height ? y * width + x : kOutside;
+}

@@ -1,0 +1,439 @@
+#include "gpu/stream.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/batch_check.h"
+#include "core/text.h"
+#include "gpu/submission.h"
+
+namespace scarf {
+
+using vulkan::Buffer;
+using vulkan::Commands;
+using vulkan::MemoryUse;
+
+namespace {
+
+constexpr size_t kIdleLimit = 32;  // command buffers in flight before a call waits for one
+
+StreamTimes with(StreamTimes times, const CheckedBatch& batch) {
+  times.first = batch.t_first;
+  if (batch.t_newest) times.newest = batch.t_newest;
+  if (batch.t_largest) times.largest = std::max(times.largest.value_or(*batch.t_largest), *batch.t_largest);
+  return times;
+}
+
+}  // namespace
+
+uint64_t Query::memory_bytes() const {
+  uint64_t bytes = target ? target->memory_bytes() : 0;
+  for (const Buffer& b : results) bytes += b.size();
+  return bytes;
+}
+
+template <class T>
+Result<std::unique_ptr<T>> Stream::Pool<T>::take(const Make& make) {
+  for (size_t i = 0; i < idle_.size(); ++i) {
+    const auto done = compute_of(*idle_[i]).done();
+    if (!done) return done.error();
+    if (*done) return take_at(i);
+  }
+  if (idle_.size() < kIdleLimit) return make();
+  if (auto r = compute_of(*idle_.front()).wait(); !r) return r.error();
+  return take_at(0);
+}
+
+template <class T>
+std::unique_ptr<T> Stream::Pool<T>::take_at(size_t i) {
+  std::unique_ptr<T> object = std::move(idle_[i]);
+  idle_.erase(idle_.begin() + static_cast<std::ptrdiff_t>(i));
+  return object;
+}
+
+Result<std::shared_ptr<Stream>> Stream::create(std::shared_ptr<GpuContext> context,
+                                               std::unique_ptr<Pipeline> pipeline,
+                                               const GpuOptions& options) {
+  if (auto r = check_options(options); !r) return r.error();
+  std::shared_ptr<Stream> stream(new Stream(std::move(context), std::move(pipeline), options));
+  if (auto r = stream->start(); !r) return r.error();
+  return stream;
+}
+
+Stream::Stream(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pipeline,
+               const GpuOptions& options)
+    : context_(std::move(context)),
+      device_(context_->vulkan()),
+      options_(options),
+      pipeline_(std::move(pipeline)) {}
+
+Stream::~Stream() {
+  // Nothing may be destroyed while the device uses it. A lost device uses nothing; after any other failure
+  // to wait, waiting for everything is tried.
+  const bool idle =
+      device_.compute().wait(last_submission_).ok() && device_.transfer().wait(last_transfer_).ok();
+  if (!idle) device_.calls().DeviceWaitIdle(device_.handle());
+}
+
+Result<void> Stream::start() {
+  for (uint32_t i = 0; i < options_.staging_slots; ++i) {
+    auto slot = make_slot();
+    if (!slot) return slot.error();
+    staging_.push_back(std::move(*slot));
+  }
+  return reset();
+}
+
+Result<PushReport> Stream::push(std::span<const Event> events) {
+  std::lock_guard lock(mutex_);
+  if (auto r = ready_to_push(); !r) return r.error();
+  auto batch = check_batch(events, sensor(), times_.first);
+  if (!batch) return batch.error();
+  const StreamTimes before = times_;
+  times_ = with(before, *batch);
+  size_t accepted = 0;
+  while (accepted < events.size()) {
+    const auto slot = open_slot(1);
+    if (!slot && slot.error().code == ErrorCode::would_block) {
+      // A batch that was taken in part counts as that part.
+      batch = check_batch(events.first(accepted), sensor(), before.first);
+      times_ = with(before, *batch);
+      if (accepted == 0) return slot.error();
+      break;
+    }
+    if (!slot) return fail(slot.error());
+    StagingSlot& s = **slot;
+    const size_t n = std::min<size_t>(events.size() - accepted, room(s));
+    std::memcpy(s.host.mapped_as<Event>() + s.fill, events.data() + accepted, n * sizeof(Event));
+    s.fill += static_cast<uint32_t>(n);
+    accepted += n;
+    if (room(s) == 0) {
+      if (auto r = submit_open(); !r) return fail(r.error());
+    }
+  }
+  return PushReport{accepted, batch->outside};
+}
+
+Result<std::span<Event>> Stream::acquire(size_t n) {
+  std::lock_guard lock(mutex_);
+  if (auto r = ready_to_push(); !r) return r.error();
+  if (n > max_acquire()) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("acquire of ", n, " events, legal is 0 to ", max_acquire())};
+  }
+  const auto slot = open_slot(std::max<size_t>(n, 1));
+  if (!slot) return slot.error().code == ErrorCode::would_block ? slot.error() : fail(slot.error());
+  acquired_ = n;
+  return std::span((*slot)->host.mapped_as<Event>() + (*slot)->fill, n);
+}
+
+Result<PushReport> Stream::commit(size_t count) {
+  std::lock_guard lock(mutex_);
+  if (auto r = usable(); !r) return r.error();
+  if (!acquired_ || count > *acquired_) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("commit of ", count, " events, but acquired were ", acquired_.value_or(0))};
+  }
+  acquired_.reset();
+  StagingSlot& s = staging_[open_];
+  const std::span<const Event> events(s.host.mapped_as<Event>() + s.fill, count);
+  const auto batch = check_batch(events, sensor(), times_.first);
+  if (!batch) return batch.error();
+  times_ = with(times_, *batch);
+  s.fill += static_cast<uint32_t>(count);
+  if (room(s) == 0) {
+    if (auto r = submit_open(); !r) return fail(r.error());
+  }
+  return PushReport{count, batch->outside};
+}
+
+Result<void> Stream::flush() {
+  std::lock_guard lock(mutex_);
+  if (auto r = usable(); !r) return r;
+  return submit_open();
+}
+
+Result<void> Stream::finish() {
+  std::unique_lock lock(mutex_);
+  if (auto r = usable(); !r) return r;
+  if (auto r = submit_open(); !r) return r;
+  const uint64_t last = last_submission_;
+  lock.unlock();
+  return device_.compute().wait(last);
+}
+
+Result<void> Stream::reset() {
+  std::lock_guard lock(mutex_);
+  auto commands = take_commands();
+  if (!commands) return commands.error();
+  Commands& c = (*commands)->compute;
+  if (auto r = c.begin(); !r) return r;
+  pipeline_->record_reset(c);
+  if (auto r = submit(c); !r) return r;
+  push_pool_.give_back(std::move(*commands));
+  // Events gathered so far belong to the old stream.
+  StagingSlot& open = staging_[open_];
+  open.begin = open.fill;
+  times_ = {};
+  failure_.reset();
+  return {};
+}
+
+std::vector<StageTime> Stream::stage_times() {
+  std::lock_guard lock(mutex_);
+  // Objects that are still lent out or in flight are counted when they are used again.
+  const auto collect_idle = [this](auto& pool) {
+    for (auto& object : pool.idle()) {
+      const auto done = compute_of(*object).done();
+      if (done && *done) collect(compute_of(*object));
+    }
+  };
+  collect_idle(push_pool_);
+  for (auto& pool : query_pools_) collect_idle(pool);
+  std::vector<StageTime> times;
+  for (const auto& [stage, time] : stage_times_) times.push_back(time);
+  return times;
+}
+
+uint64_t Stream::memory_bytes() {
+  std::lock_guard lock(mutex_);
+  uint64_t bytes = pipeline_->memory_bytes() + query_bytes_;
+  for (const StagingSlot& s : staging_) bytes += s.host.size() + s.device.size();
+  return bytes;
+}
+
+// After a failed push, part of a batch may be stored: the stream then refuses everything until reset().
+Error Stream::fail(Error e) {
+  failure_ = Error{e.code, text("the stream is incomplete since a push failed: ", e.message)};
+  return e;
+}
+
+Result<void> Stream::usable() const {
+  return failure_ ? Result<void>(*failure_) : Result<void>();
+}
+
+Result<void> Stream::ready_to_push() const {
+  if (!acquired_) return usable();
+  return Error{ErrorCode::illegal_parameter,
+               "staging memory is acquired: commit it before the next push or acquire"};
+}
+
+// Shaders read host memory where that is device memory too; elsewhere events are copied, by the transfer
+// queue if the device has one.
+DeviceOptions::Upload Stream::upload_path(const Buffer& host) const {
+  const Upload wish = device_.options().upload;
+  if (wish != Upload::automatic || host.device_local()) return wish;
+  return device_.compute().family() == device_.transfer().family() ? Upload::staged : Upload::transfer_queue;
+}
+
+Result<Stream::StagingSlot> Stream::make_slot() {
+  const uint64_t bytes = max_acquire() * sizeof(Event);
+  StagingSlot s;
+  auto host = Buffer::create(device_, "the staging memory", bytes, MemoryUse::upload);
+  if (!host) return host.error();
+  s.host = std::move(*host);
+  upload_ = upload_path(s.host);
+  if (upload_ != Upload::automatic) {
+    auto device = Buffer::create(device_, "the event memory", bytes, MemoryUse::device);
+    if (!device) return device.error();
+    s.device = std::move(*device);
+  }
+  auto binding = pipeline_->bind_events(upload_ == Upload::automatic ? s.host : s.device);
+  if (!binding) return binding.error();
+  s.binding = std::move(*binding);
+  return s;
+}
+
+// The slot that gathers events, with room for n.
+Result<Stream::StagingSlot*> Stream::open_slot(size_t n) {
+  if (room(staging_[open_]) < n) {
+    if (auto r = submit_open(); !r) return r.error();
+    const size_t next = room(staging_[open_]) < n ? (open_ + 1) % staging_.size() : open_;
+    StagingSlot& s = staging_[next];
+    const auto done = device_.compute().done(s.last_use);
+    if (!done) return done.error();
+    if (!*done && options_.when_full == GpuOptions::WhenFull::would_block) {
+      return Error{ErrorCode::would_block,
+                   "every staging slot is in flight; push again later, or choose to wait"};
+    }
+    if (auto r = device_.compute().wait(s.last_use); !r) return r.error();
+    open_ = next;
+    s.begin = s.fill = 0;
+  }
+  return &staging_[open_];
+}
+
+// Submits the gathered events, if there are any. If that fails they stay where they are.
+Result<void> Stream::submit_open() {
+  StagingSlot& s = staging_[open_];
+  if (s.begin == s.fill) return {};
+  if (auto r = pipeline_->prepare_push(s.fill - s.begin); !r) return r;
+  auto commands = take_commands();
+  if (!commands) return commands.error();
+  const Result<void> submitted = submit_push(**commands, s);
+  // Also after a failure: the transfer may be in flight.
+  push_pool_.give_back(std::move(*commands));
+  if (!submitted) return submitted;
+  s.last_use = last_submission_;
+  s.begin = s.fill;
+  if (!acquired_) advance();
+  return {};
+}
+
+Result<void> Stream::submit_push(PushCommands& commands, const StagingSlot& s) {
+  Commands& c = commands.compute;
+  const vulkan::Queue* wait_queue = nullptr;
+  uint64_t wait_value = 0;
+  const uint64_t offset = s.begin * sizeof(Event);
+  const uint64_t bytes = (s.fill - s.begin) * sizeof(Event);
+  if (upload_ == Upload::transfer_queue) {
+    Commands& t = commands.transfer;
+    if (auto r = t.wait(); !r) return r;
+    if (auto r = t.begin(); !r) return r;
+    t.copy(s.host, offset, s.device, offset, bytes);
+    if (auto r = t.submit(); !r) return r;
+    wait_queue = &device_.transfer();
+    wait_value = last_transfer_ = t.value();
+  }
+  if (auto r = c.begin(); !r) return r;
+  if (upload_ == Upload::staged) {
+    c.copy(s.host, offset, s.device, offset, bytes);
+    c.barrier();
+    c.mark("upload");
+  }
+  pipeline_->record_push(c, *s.binding, s.begin, s.fill - s.begin, times_);
+  return submit(c, wait_queue, wait_value);
+}
+
+// Moves on to the next slot if that is free, so that the next batch does not have to fit into what is left
+// of this one.
+void Stream::advance() {
+  const size_t next = (open_ + 1) % staging_.size();
+  const auto done = device_.compute().done(staging_[next].last_use);
+  if (!done || !*done) return;
+  open_ = next;
+  staging_[next].begin = staging_[next].fill = 0;
+}
+
+Result<std::unique_ptr<Stream::PushCommands>> Stream::take_commands() {
+  auto commands = push_pool_.take([this]() -> Result<std::unique_ptr<PushCommands>> {
+    auto made = std::make_unique<PushCommands>();
+    auto compute = Commands::create(device_, device_.compute());
+    if (!compute) return compute.error();
+    made->compute = std::move(*compute);
+    if (upload_ == Upload::transfer_queue) {
+      auto transfer = Commands::create(device_, device_.transfer());
+      if (!transfer) return transfer.error();
+      made->transfer = std::move(*transfer);
+    }
+    return made;
+  });
+  if (commands) collect((*commands)->compute);
+  return commands;
+}
+
+Result<std::unique_ptr<Query>> Stream::take_query(QueryKind kind) {
+  auto query =
+      query_pools_[static_cast<size_t>(kind)].take([this]() -> Result<std::unique_ptr<Query>> {
+        auto commands = Commands::create(device_, device_.compute());
+        if (!commands) return commands.error();
+        auto made = std::make_unique<Query>();
+        made->commands = std::move(*commands);
+        return made;
+      });
+  if (query) collect((*query)->commands);
+  return query;
+}
+
+// Copies the parts into memory of the query, which grows as needed.
+Result<void> Stream::copy_back(Query& query, std::span<const Part> parts) {
+  if (query.results.size() < parts.size()) query.results.resize(parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    Buffer& result = query.results[i];
+    if (result.size() < parts[i].bytes) {
+      auto buffer = Buffer::create(device_, "the result for the host", parts[i].bytes, MemoryUse::readback);
+      if (!buffer) return buffer.error();
+      result = std::move(*buffer);
+    }
+    query.commands.copy(*parts[i].buffer, 0, result, 0, parts[i].bytes);
+  }
+  if (!parts.empty()) query.commands.mark("copy");
+  return {};
+}
+
+Result<void> Stream::submit(Commands& c, const vulkan::Queue* wait_queue, uint64_t wait_value) {
+  if (auto r = c.submit(wait_queue, wait_value); !r) return r;
+  last_submission_ = c.value();
+  return {};
+}
+
+// Times of finished commands. A failure here loses a measurement, not a result.
+void Stream::collect(Commands& c) {
+  const auto spans = c.take_times();
+  if (!spans) return;
+  for (const vulkan::StageSpan& span : *spans) {
+    StageTime& time = stage_times_[std::string(span.stage)];
+    time.stage = span.stage;
+    time.dispatches += 1;
+    time.nanoseconds += span.nanoseconds;
+  }
+}
+
+template <class T>
+Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_state) {
+  // The query in flight; it goes back to its pool when the Pending result is gone.
+  struct Lease {
+    std::shared_ptr<Stream> stream;
+    QueryKind kind;
+    std::unique_ptr<Query> query;
+    std::function<Result<T>(HostParts)> read;
+    ~Lease() {
+      std::lock_guard lock(stream->mutex_);
+      stream->query_pools_[static_cast<size_t>(kind)].give_back(std::move(query));
+    }
+  };
+
+  std::lock_guard lock(mutex_);
+  if (auto r = usable(); !r) return r.error();
+  if (auto r = submit_open(); !r) return r.error();
+  auto taken = take_query(kind);
+  if (!taken) return taken.error();
+  Query& q = **taken;
+  const uint64_t bytes_before = q.memory_bytes();
+  const auto recorded = [&]() -> Result<std::function<Result<T>(HostParts)>> {
+    if (auto r = q.commands.begin(); !r) return r.error();
+    auto answer = record(q, times_);
+    if (!answer) return answer.error();
+    if (auto r = copy_back(q, answer->parts); !r) return r.error();
+    if (auto r = submit(q.commands); !r) return changes_state ? fail(r.error()) : r.error();
+    return std::move(answer->read);
+  }();
+  if (!recorded) {
+    query_bytes_ -= bytes_before;  // the query is dropped
+    return recorded.error();
+  }
+  query_bytes_ += q.memory_bytes() - bytes_before;
+  std::shared_ptr<Lease> lease(
+      new Lease{shared_from_this(), kind, std::move(*taken), std::move(*recorded)});
+  return Pending<T>(
+      [lease] {
+        const auto done = lease->query->commands.done();
+        return !done || *done;
+      },
+      [lease]() -> Result<T> {
+        if (auto r = lease->query->commands.wait(); !r) return r.error();
+        std::vector<const void*> parts;
+        for (const Buffer& b : lease->query->results) parts.push_back(b.mapped());
+        return lease->read(parts);
+      });
+}
+
+template Pending<Image<uint8_t>> Stream::query(QueryKind, const Record<Image<uint8_t>>&, bool);
+template Pending<Image<float>> Stream::query(QueryKind, const Record<Image<float>>&, bool);
+template Pending<Image<int32_t>> Stream::query(QueryKind, const Record<Image<int32_t>>&, bool);
+template Pending<Image<int64_t>> Stream::query(QueryKind, const Record<Image<int64_t>>&, bool);
+template Pending<std::vector<Event>> Stream::query(QueryKind, const Record<std::vector<Event>>&, bool);
+template Pending<std::vector<uint8_t>> Stream::query(QueryKind, const Record<std::vector<uint8_t>>&, bool);
+template Pending<Snapshot> Stream::query(QueryKind, const Record<Snapshot>&, bool);
+
+}  // namespace scarf

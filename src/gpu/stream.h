@@ -1,0 +1,148 @@
+// A stream of events on a device: staging of batches, queries in flight, threads and failures. What the
+// events are for is the pipeline's business.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/pipeline.h"
+#include "scarf/gpu.h"
+#include "vulkan/commands.h"
+#include "vulkan/device.h"
+
+namespace scarf {
+
+/// What a pipeline may attach to the queries that it answers, to find it there again.
+struct QueryTarget {
+  virtual ~QueryTarget() = default;
+  virtual uint64_t memory_bytes() const = 0;
+};
+
+/// What a query needs while it is in flight; used again afterwards.
+struct Query {
+  vulkan::Commands commands;
+  std::vector<vulkan::Buffer> results;  ///< copies of Answer::parts, for the host
+  std::unique_ptr<QueryTarget> target;
+
+  uint64_t memory_bytes() const;
+};
+
+/// Queries of one kind need similar memory.
+enum class QueryKind { image, events, state };
+inline constexpr size_t kQueryKinds = 3;
+
+/// Everything of a stream. Pending results share it, so that they may outlive the Representation.
+class Stream : public std::enable_shared_from_this<Stream> {
+ public:
+  /// Errors: illegal_parameter for options out of range; out_of_memory.
+  static Result<std::shared_ptr<Stream>> create(std::shared_ptr<GpuContext> context,
+                                                std::unique_ptr<Pipeline> pipeline,
+                                                const GpuOptions& options);
+  ~Stream();
+
+  Pipeline& pipeline() { return *pipeline_; }
+  SensorSize sensor() const { return pipeline_->sensor(); }
+
+  // See Representation and GpuRepresentation.
+  Result<PushReport> push(std::span<const Event> events);
+  Result<std::span<Event>> acquire(size_t n);
+  Result<PushReport> commit(size_t count);
+  size_t max_acquire() const { return pipeline_->submission_events(); }
+  Result<void> flush();
+  Result<void> finish();
+  Result<void> reset();
+  std::vector<StageTime> stage_times();
+  uint64_t memory_bytes();
+
+  /// Submits what was gathered, then what `record` records, and hands over what the answer reads.
+  /// `changes_state`: the recorded work does; should it not get to the device, the stream is broken.
+  template <class T>
+  using Record = std::function<Result<Answer<T>>(Query& query, const StreamTimes& times)>;
+  template <class T>
+  Pending<T> query(QueryKind kind, const Record<T>& record, bool changes_state = false);
+
+ private:
+  using Upload = DeviceOptions::Upload;
+
+  // Staging memory. Events begin .. fill-1 are pushed but not yet submitted, those before are in flight or
+  // done.
+  struct StagingSlot {
+    vulkan::Buffer host;
+    vulkan::Buffer device;  // copy of `host`, where shaders do not read host memory
+    std::unique_ptr<EventBinding> binding;
+    uint32_t begin = 0;
+    uint32_t fill = 0;
+    uint64_t last_use = 0;  // place in the compute timeline
+  };
+
+  struct PushCommands {
+    vulkan::Commands compute;
+    vulkan::Commands transfer;  // only with Upload::transfer_queue
+  };
+
+  // Objects that are either idle (perhaps still in flight on the device) or lent out.
+  template <class T>
+  class Pool {
+   public:
+    using Make = std::function<Result<std::unique_ptr<T>>()>;
+    // An object whose last submission is done; a new one if there is none and fewer than a limit are idle.
+    Result<std::unique_ptr<T>> take(const Make& make);
+    void give_back(std::unique_ptr<T> object) { idle_.push_back(std::move(object)); }
+    std::vector<std::unique_ptr<T>>& idle() { return idle_; }
+
+   private:
+    std::unique_ptr<T> take_at(size_t i);
+    std::vector<std::unique_ptr<T>> idle_;
+  };
+
+  static vulkan::Commands& compute_of(PushCommands& c) { return c.compute; }
+  static vulkan::Commands& compute_of(Query& q) { return q.commands; }
+
+  Stream(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pipeline, const GpuOptions& options);
+  Result<void> start();
+
+  Error fail(Error e);
+  Result<void> usable() const;
+  Result<void> ready_to_push() const;
+
+  Upload upload_path(const vulkan::Buffer& host) const;
+  Result<StagingSlot> make_slot();
+  size_t room(const StagingSlot& s) const { return max_acquire() - s.fill; }
+  Result<StagingSlot*> open_slot(size_t n);
+  Result<void> submit_open();
+  Result<void> submit_push(PushCommands& commands, const StagingSlot& s);
+  void advance();
+
+  Result<std::unique_ptr<PushCommands>> take_commands();
+  Result<std::unique_ptr<Query>> take_query(QueryKind kind);
+  Result<void> copy_back(Query& query, std::span<const Part> parts);
+  Result<void> submit(vulkan::Commands& c, const vulkan::Queue* wait_queue = nullptr, uint64_t wait_value = 0);
+  void collect(vulkan::Commands& c);
+
+  std::shared_ptr<GpuContext> context_;  // first, so that the device outlives all that follows
+  vulkan::Device& device_;
+  const GpuOptions options_;
+  std::mutex mutex_;
+  std::unique_ptr<Pipeline> pipeline_;
+  Upload upload_ = Upload::automatic;  // automatic: shaders read the staging memory itself
+  std::vector<StagingSlot> staging_;
+  size_t open_ = 0;                 // the staging slot that gathers events
+  std::optional<size_t> acquired_;  // events handed out by acquire, behind the gathered ones
+  StreamTimes times_;               // of all events pushed
+  std::optional<Error> failure_;
+  uint64_t last_submission_ = 0;  // places in the timelines of the two queues
+  uint64_t last_transfer_ = 0;
+  std::atomic<uint64_t> query_bytes_ = 0;
+  Pool<PushCommands> push_pool_;
+  Pool<Query> query_pools_[kQueryKinds];
+  std::map<std::string, StageTime> stage_times_;
+};
+
+}  // namespace scarf
