@@ -54,7 +54,7 @@ class Measurement {
       return seconds_since(start);
     };
     const auto time = seconds_per_piece(run, stream_.size() / kBatch, seconds_);
-    if (!time) return time;
+    if (!time) return time.error();
     return *time / static_cast<double>(kBatch);
   }
 
@@ -66,7 +66,7 @@ class Measurement {
     while (times.empty() || (times.size() < kMostRepeats && seconds_since(start) < seconds_)) {
       if (auto r = push_and_finish(representation_, stream_.next(refill), kBatch); !r) return r.error();
       const auto time = time_query(representation_);
-      if (!time) return time;
+      if (!time) return time.error();
       if (warm || *time > seconds_) times.push_back(*time);
       warm = true;
     }
@@ -81,7 +81,7 @@ class Measurement {
       return seconds_since(start);
     };
     const auto time = seconds_per_piece(run, stream_.size() / events_per_query, seconds_);
-    if (!time) return time;
+    if (!time) return time.error();
     return static_cast<double>(events_per_query) / *time;
   }
 

@@ -125,9 +125,9 @@ class Drawing {
              "<rect width=\"", width, "\" height=\"", height, "\" fill=\"white\"/>\n",
              words(width / 2, 28, "middle", plot_.title, " font-size=\"16\""));
     for (size_t i = 0; i < plot_.panels.size(); ++i) {
+      const size_t row = i / columns;
       const double left = static_cast<double>(i % columns) * (kLeft + kPanelWidth + kRight) + kLeft;
-      const double top =
-          kTitle + static_cast<double>(i / columns) * (kAbove + kPanelHeight + kBelow) + kAbove;
+      const double top = kTitle + static_cast<double>(row) * (kAbove + kPanelHeight + kBelow) + kAbove;
       out += panel(plot_.panels[i], left, top);
     }
     return out + legend(panels_width, kTitle + kAbove) + "</svg>\n";

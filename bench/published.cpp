@@ -36,8 +36,17 @@ constexpr Released kReleased[] = {
     {"aae", {8, 10, 21, 40}, {216, 274, 1'500, 9'200}},
 };
 
+constexpr Released kReleasedDefaultScarf = {"scarf", {35, 39, 65, 150}, {5, 10, 50, 239}};
+
 std::optional<double> given(double value) {
   return value == kNone ? std::nullopt : std::optional(value);
+}
+
+PublishedCosts costs_on(SensorSize sensor, const Released& row) {
+  for (size_t i = 0; i < kSensors.size(); ++i) {
+    if (kSensors[i] == sensor) return {given(row.event_ns[i]), given(row.query_us[i])};
+  }
+  return {};
 }
 
 }  // namespace
@@ -52,12 +61,13 @@ PublishedCosts costs_in_paper(std::string_view representation, SensorSize sensor
 
 PublishedCosts costs_of_released_code(std::string_view representation, SensorSize sensor) {
   for (const Released& row : kReleased) {
-    if (row.representation != representation) continue;
-    for (size_t i = 0; i < kSensors.size(); ++i) {
-      if (kSensors[i] == sensor) return {given(row.event_ns[i]), given(row.query_us[i])};
-    }
+    if (row.representation == representation) return costs_on(sensor, row);
   }
   return {};
+}
+
+PublishedCosts costs_of_released_default_scarf(SensorSize sensor) {
+  return costs_on(sensor, kReleasedDefaultScarf);
 }
 
 }  // namespace scarf::bench

@@ -48,16 +48,6 @@ struct AedImagePush {
   uint peak_high;
 };
 
-// fourier: one pass over all rows, or all columns, of a plane.
-struct FourierPush {
-  uint elements;    // of the plane
-  uint points;      // of a line
-  uint stride;      // from one element of a line to the next
-  uint radix;       // lines are combined from `radix` interleaved parts
-  uint done;        // product of the radices of earlier passes
-  uint inverse;
-};
-
 #ifdef __cplusplus
 }  // namespace scarf::layout
 #endif

@@ -13,14 +13,14 @@ struct ChainStampPush {
   uint events;
   uint width;
   uint height;
-  uint stamp;        // of the first event
-  uint cells;        // 1: an event sets the cell of its pixel to the newest rank
+  uint stamp;  // of the first event
+  uint cells;  // 1: an event sets the cell of its pixel to the newest rank
 };
 
 // The stages of a query and of a renumbering.
 struct ChainPush {
   uint pixels;
-  uint words;        // of the bit set of stamps; the number of all stamps in use is behind their counts
+  uint words;  // of the bit set of stamps; the number of all stamps in use is behind their counts
 };
 
 #ifdef __cplusplus

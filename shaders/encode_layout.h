@@ -10,8 +10,8 @@ namespace scarf::layout {
 #define SCARF_CONSTANT const uint
 #endif
 
-// Where the words of the span of time are. Times count from the smallest one that there is, and for the smallest time
-// the complement is kept: so all are largest numbers, and begin at 0.
+// Where the words of the span of time are. Times count from the smallest one that there is, and for the
+// smallest time the complement is kept: so all are largest numbers, and begin at 0.
 SCARF_CONSTANT kSpanFirstHigh = 0;
 SCARF_CONSTANT kSpanLastHigh = 1;
 SCARF_CONSTANT kSpanFirstLow = 2;
@@ -29,12 +29,12 @@ struct EncodePush {
   uint first_events;  // in the first of the two buffers
   uint width;
   uint height;
-  uint planes;        // encode_voxel: bins; encode_tore_rank: k
-  uint mode;          // encode_span: 0 = high words, 1 = low words; encode_voxel: 1 = planes for each polarity;
-                      // encode_float: words per sum
-  uint values;        // encode_float, encode_decay: of the tensor
-  uint begin;         // encode_tore_rank: the part of each list, from its end
-  uint end;           // encode_decay: last entry of the table
+  uint planes;  // encode_voxel: bins; encode_tore_rank: k
+  uint mode;    // encode_span: 0 = high words, 1 = low words; encode_voxel: 1 = planes for each polarity;
+                // encode_float: words per sum
+  uint values;  // encode_float, encode_decay: of the tensor
+  uint begin;   // encode_tore_rank: the part of each list, from its end
+  uint end;     // encode_decay: last entry of the table
 };
 
 #ifdef __cplusplus

@@ -19,7 +19,7 @@ SCARF_CONSTANT kFilterNever = 0x80000000u;
 // Where the words of a report are: of one submission, as atomics leave them, and of the stream.
 SCARF_CONSTANT kFilterPassed = 0;
 SCARF_CONSTANT kFilterRejected = 1;
-SCARF_CONSTANT kFilterNewest = 2;  // place + 1 in the submission of the last event that passed; 0: none
+SCARF_CONSTANT kFilterNewest = 2;       // place + 1 in the submission of the last event that passed; 0: none
 SCARF_CONSTANT kFilterTotalPassed = 3;  // two words, low and high, like the next ones
 SCARF_CONSTANT kFilterTotalRejected = 5;
 SCARF_CONSTANT kFilterNewestTime = 7;  // valid if any event passed
@@ -30,13 +30,13 @@ struct FilterPush {
   uint first_event;  // index of the submission's first event in the buffer that is read; 0 in that written
   uint begin;        // the part of each list, from its beginning
   uint end;
-  uint chunks;       // of the table that says where lists begin
+  uint chunks;  // of the table that says where lists begin
   uint tiles;
   uint tiles_x;
-  uint tile;         // pixels per side
-  uint range;        // support: pixels around an event that may support it
-  uint width;        // sensor
-  uint period;       // microseconds
+  uint tile;    // pixels per side
+  uint range;   // support: pixels around an event that may support it
+  uint width;   // sensor
+  uint period;  // microseconds
   uint t_first_low;
   uint t_first_high;
 };

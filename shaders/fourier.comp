@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_float64 : require
-#include "aed_sae_layout.h"
+#include "fourier_layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 

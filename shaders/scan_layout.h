@@ -11,8 +11,8 @@ using uint = uint32_t;
 #define SCARF_CONSTANT const uint
 #endif
 
-// A workgroup sums one block: each of its lanes takes a run of words. Lanes are in rows, so that a lane has to look
-// at the sums of the rows before its own and of the lanes before it only.
+// A workgroup sums one block: each of its lanes takes a run of words. Lanes are in rows, so that a lane has
+// to look at the sums of the rows before its own and of the lanes before it only.
 SCARF_CONSTANT kPrefixGroup = 256;
 SCARF_CONSTANT kPrefixRow = 16;
 SCARF_CONSTANT kPrefixRun = 16;

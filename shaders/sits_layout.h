@@ -21,7 +21,7 @@ struct SitsPush {
   uint events;
   uint width;          // sensor
   uint height;
-  uint pairs_x;        // a row of values has so many pairs of pixels, the last one half empty if the width is odd
+  uint pairs_x;        // pairs of pixels per row of values; the last one is half empty if the width is odd
   int reach;           // pixels of the window on each side of its centre
   int white;           // what the centre becomes: k * k
   int least_before;    // a pixel loses 1 from (value at the centre + this) on: visited before the centre ...

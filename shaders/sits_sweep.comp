@@ -1,9 +1,8 @@
-// SITS, stage "sweep": each tile replays the events of its list, one team per tile. What an event does to a tile depends
-// on the value at its centre. Where the centre lies in another tile, the value is what that tile found in the sweep
-// before. A sweep that finds what the one before found has settled: then every tile has replayed its events with
-// values that the tiles themselves found, and going through the events in their order, each of these values is the
-// true one, because it depends on true values of earlier events only. A tile whose neighbours found nothing new would
-// find nothing new itself, and is skipped.
+// SITS, stage "sweep": each tile replays the events of its list, one team per tile. What an event does to a tile
+// depends on the value at its centre. Where the centre lies in another tile, the value is what that tile found in the
+// sweep before. The sweeps have settled when one finds what the one before it found. Going through the events in their
+// order, each of these values is then the true one, because it follows from true values of earlier events only. A tile
+// whose neighbours found nothing new would find nothing new itself, and is skipped.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -70,8 +69,8 @@ void set_found_new(uint tile, bool found) {
   if (found) atomicOr(unsettled[push.sweep], 1);
 }
 
-// Whether a tile with a centre that this one looks at found anything new in the sweep before. Trips: at most 9 tiles per
-// axis, and an entry each.
+// Whether a tile with a centre that this one looks at found anything new in the sweep before. Trips: at most 9 tiles
+// per axis, and an entry each.
 bool neighbours_found_new(Tile tile) {
   const ivec2 size = ivec2(push.width, push.height);
   const uvec2 low = uvec2(max(tile.first - push.reach, 0)) / kTile;
@@ -114,7 +113,7 @@ void store_values(Tile tile) {
 // Returns whether the lane saw anything new.
 bool replay(Tile tile) {
   bool found = false;
-  // Trips: see trips_per_block() in src/representations/sits.cpp.
+  // Trips: see sits_trips_per_block() in src/representations/sits.cpp.
   for (uint block = tile.begin; block < tile.end; block += kTeamLanes) {
     const uint own = block + gl_SubgroupInvocationID;
     const uint own_event = lists[min(own, tile.end - 1)];

@@ -1,8 +1,9 @@
 // The team of SITS: one subgroup, which is a whole workgroup, takes events one after the other.
 //
 // Values come in pairs: two pixels of a row, the first in an even column. Lane (a, b) of the team owns the pairs (x, y)
-// with x = a mod kTeamX and y = b mod kTeamY: it alone reads and writes them, in the order of the events, so values need
-// no atomics and no barriers. The value at the centre of a window travels from its owner to the others by a shuffle.
+// with x = a mod kTeamX and y = b mod kTeamY: it alone reads and writes them, in the order of the events, so values
+// need no atomics and no barriers. The value at the centre of a window travels from its owner to the others by a
+// shuffle.
 //
 // To be defined before it is included: push, and
 //   uint place_of(ivec2 pair)         where a pair is

@@ -178,8 +178,14 @@ Result<Difference> representation_difference(Representation& a, Representation& 
   d = asked(
       a, b, [](Representation& r) { return r.float_image(); }, images("float image"));
   if (!d || *d) return d;
-  return asked(
+  d = asked(
       a, b, [](Representation& r) { return r.raw_image(); }, images("raw image"));
+  if (!d || *d) return d;
+  return asked(
+      a, b, [](Representation& r) { return r.filter_reports(); },
+      [](const auto& x, const auto& y) {
+        return x == y ? Difference() : Difference("reports of the filters");
+      });
 }
 
 Result<Difference> intolerable_difference(Representation& a, Representation& b, const SideNames& names,

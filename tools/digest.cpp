@@ -53,9 +53,12 @@ Result<int> digest(const DigestOptions& options) {
     if (!snapshot) return snapshot.error();
     if (auto r = write_state_dump(options.dump, *snapshot); !r) return r.error();
   }
+  const auto filtered = filter_lines(options.stream, representation);
+  if (!filtered) return filtered.error();
   Digest of_state;
   of_state.add(*state);
-  std::cout << text("state ", of_state.hex(), "\nimage ", image_digest(*image), "\nevents ", events.hex(), "\n");
+  std::cout << text("state ", of_state.hex(), "\nimage ", image_digest(*image), "\nevents ", events.hex(),
+                    "\n", *filtered);
   return 0;
 }
 

@@ -88,6 +88,18 @@ void add_representation_options(CLI::App& app, StreamOptions& o, std::vector<std
                  "Brightness of one event, default 0.3 (scarf; time_window with --counts)")
       ->each([&o](const std::string& word) { o.parameters["accumulation"] = word; });
   add_parameter_options(app, o);
+  app.add_option_function<std::vector<std::string>>(
+         "--filter",
+         [&o](const std::vector<std::string>& words) {
+           o.filters.clear();
+           for (const std::string& word : words) o.filters.push_back(*parse_filter(word));
+         },
+         "A noise filter in front, support:range=1,period=100ms or refractory:period=1ms; may be repeated")
+      ->check([](const std::string& word) {
+        const auto filter = parse_filter(word);
+        return filter ? std::string() : filter.error().message;
+      })
+      ->group("Noise filters");
 }
 
 }  // namespace
@@ -183,8 +195,10 @@ Result<Implementation> make_reference(const StreamOptions& options, SensorSize s
   const auto wish = wish_of(options, sensor);
   if (!wish) return wish.error();
   const std::string name = "CPU reference";
-  if (wish->grid) return implementation(make_reference_scarf(*wish->grid, options.accumulation), name);
-  return implementation(make_reference_representation(wish->parameters, sensor), name);
+  auto made = wish->grid ? implementation(make_reference_scarf(*wish->grid, options.accumulation), name)
+                         : implementation(make_reference_representation(wish->parameters, sensor), name);
+  if (!made) return made;
+  return implementation(behind_filters(std::move(made->representation), options.filters), name);
 }
 
 Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor) {
@@ -193,8 +207,24 @@ Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor)
   const auto context = GpuContext::create(options.device);
   if (!context) return context.error();
   const std::string name = (*context)->device().name;
-  if (wish->grid) return implementation(make_gpu_scarf(*context, *wish->grid, options.accumulation), name);
-  return implementation(make_gpu_representation(*context, wish->parameters, sensor), name);
+  if (wish->grid) {
+    return implementation(make_gpu_scarf(*context, *wish->grid, options.accumulation, {}, options.filters),
+                          name);
+  }
+  return implementation(make_gpu_representation(*context, wish->parameters, sensor, {}, options.filters),
+                        name);
+}
+
+Result<std::string> filter_lines(const StreamOptions& options, Representation& representation) {
+  const auto reports = representation.filter_reports().wait();
+  if (!reports) return reports.error();
+  std::string lines;
+  for (size_t i = 0; i < reports->size(); ++i) {
+    const FilterReport& r = (*reports)[i];
+    lines += text("filter ", info_of(options.filters[i]).name, ": ", r.passed, " events passed, ", r.rejected,
+                  " rejected\n");
+  }
+  return lines;
 }
 
 Result<Implementation> make_implementation(const StreamOptions& options, SensorSize sensor) {

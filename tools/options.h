@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scarf/filter.h"
 #include "scarf/geometry.h"
 #include "scarf/gpu.h"
 #include "scarf/io.h"
@@ -22,6 +23,7 @@ struct StreamOptions {
 
   std::string representation = "scarf";
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
+  std::vector<FilterParameters> filters;          ///< in front of the representation
   std::vector<const CLI::Option*> grid_options;   ///< for SCARF only
 
   Preset preset = Preset::paper;
@@ -79,6 +81,8 @@ struct Implementation {
 };
 Result<Implementation> make_reference(const StreamOptions& options, SensorSize sensor);
 Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor);
+/// One line for each noise filter: what became of the events. Errors: whatever the representation returned.
+Result<std::string> filter_lines(const StreamOptions& options, Representation& representation);
 /// The one that the options choose.
 Result<Implementation> make_implementation(const StreamOptions& options, SensorSize sensor);
 

@@ -17,9 +17,9 @@
 namespace scarf::tools {
 namespace {
 
-constexpr size_t kFramesInFlight = 4;          // enough for a device to work while earlier frames are encoded
-constexpr int64_t kDefaultWindow = 33;         // milliseconds: one frame at 30 Hz
-constexpr int64_t kMaxWindow = 100'000;       // milliseconds
+constexpr size_t kFramesInFlight = 4;    // enough for a device to work while earlier frames are encoded
+constexpr int64_t kDefaultWindow = 33;   // milliseconds: one frame at 30 Hz
+constexpr int64_t kMaxWindow = 100'000;  // milliseconds
 constexpr double kMinVideoFps = 0.1;
 constexpr double kMaxVideoFps = 1000;
 
@@ -107,6 +107,7 @@ class Renderer {
   }
 
   uint64_t frames() const { return frames_; }
+  Representation& first() const { return *shown_.front().representation; }
 
  private:
   struct InFlight {
@@ -153,7 +154,8 @@ Result<Choice> choose(const RenderOptions& options, SensorSize sensor) {
     choice.implementation = made->name;
   }
   if (options.window) {
-    auto window = make_reference_representation(TimeWindowParameters{.window = *options.window * 1000}, sensor);
+    auto window =
+        make_reference_representation(TimeWindowParameters{.window = *options.window * 1000}, sensor);
     if (!window) return window.error();
     choice.shown.push_back({*std::move(window), text("last ", *options.window, " ms")});
   }
@@ -190,9 +192,11 @@ Result<int> render(const RenderOptions& options) {
     events = *played;
     seconds = progress.seconds();
   }
+  const auto filtered = filter_lines(options.stream, renderer.first());
+  if (!filtered) return filtered.error();
   std::cout << text("rendered ", renderer.frames(), " frames of ", events, " events in ", seconds, " s (",
                     static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
-                    " events/s with reading and writing) on ", choice->implementation, "\n");
+                    " events/s with reading and writing) on ", choice->implementation, "\n", *filtered);
   return 0;
 }
 

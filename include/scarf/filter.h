@@ -11,6 +11,7 @@
 
 #include "scarf/event.h"
 #include "scarf/parameters.h"
+#include "scarf/representation.h"
 #include "scarf/result.h"
 
 namespace scarf {
@@ -52,15 +53,6 @@ Result<FilterParameters> parse_filter(const std::string& words);
 
 /// The parameters as they came. Errors: illegal_parameter if one is out of range.
 Result<FilterParameters> checked_filter(const FilterParameters& parameters);
-
-/// What became of the events of a stream: passed + rejected + outside of them were seen.
-struct FilterReport {
-  uint64_t passed = 0;    ///< inside the sensor and handed on
-  uint64_t rejected = 0;  ///< inside the sensor and not handed on
-  uint64_t outside = 0;   ///< outside the sensor: handed on untouched, for a representation to count
-
-  friend bool operator==(const FilterReport&, const FilterReport&) = default;
-};
 
 /// One filter and its state. Implementations agree event by event, for any stream and any way of cutting it
 /// into batches. Events outside the sensor pass and leave no trace in the state. One thread at a time.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scarf/filter.h"
 #include "scarf/parameters.h"
 #include "scarf/scarf.h"
 
@@ -122,13 +123,14 @@ class GpuScarf : public Scarf, public GpuRepresentation {};
 Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
                                                  const Geometry& geometry,
                                                  double accumulation = kDefaultAccumulation,
-                                                 const GpuOptions& options = {});
+                                                 const GpuOptions& options = {},
+                                                 std::span<const FilterParameters> filters = {});
 
-/// Any representation on a sensor. Errors: illegal_parameter as checked_parameters, and for a sensor that the
-/// representation cannot be on; device, if the device lacks something that it needs; out_of_memory.
-Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(std::shared_ptr<GpuContext> context,
-                                                                   const Parameters& parameters,
-                                                                   SensorSize sensor,
-                                                                   const GpuOptions& options = {});
+/// Any representation on a sensor, behind the filters, if there are any (time_window with `counts` cannot
+/// be). Errors: illegal_parameter as checked_parameters, and for a sensor that the representation cannot be
+/// on; device, if the device lacks something that it needs; out_of_memory.
+Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(
+    std::shared_ptr<GpuContext> context, const Parameters& parameters, SensorSize sensor,
+    const GpuOptions& options = {}, std::span<const FilterParameters> filters = {});
 
 }  // namespace scarf

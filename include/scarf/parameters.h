@@ -73,9 +73,9 @@ struct AaeParameters {
   bool esvo2 = false;  ///< the variant of ESVO2: 8 x 6 blocks, events since the last query
 };
 
-using Parameters = std::variant<ScarfParameters, TimeWindowParameters, SaeParameters, ErosParameters,
-                                TosParameters, SitsParameters, ChainSaeParameters, AedSaeParameters,
-                                AaeParameters>;
+using Parameters =
+    std::variant<ScarfParameters, TimeWindowParameters, SaeParameters, ErosParameters, TosParameters,
+                 SitsParameters, ChainSaeParameters, AedSaeParameters, AaeParameters>;
 
 /// One parameter, for people and command lines.
 struct ParameterInfo {
@@ -91,8 +91,8 @@ struct RepresentationInfo {
   std::string title;        ///< "EROS"
   std::string description;  ///< one line
   std::vector<ParameterInfo> parameters;
-  bool exact = true;       ///< GPU and reference agree bit for bit; else within a bound
-  bool has_events = false; ///< Representation::events() works (with some parameters)
+  bool exact = true;        ///< GPU and reference agree bit for bit; else within a bound
+  bool has_events = false;  ///< Representation::events() works (with some parameters)
 };
 
 /// All representations, scarf first. In the order of the alternatives of Parameters.
@@ -101,13 +101,16 @@ std::span<const RepresentationInfo> representations();
 /// The entry of some parameters.
 const RepresentationInfo& info_of(const Parameters& parameters);
 
+/// Whether a query changes what later queries show.
+bool query_changes_state(const Parameters& parameters);
+
 /// Parameters from words: name -> value. Errors: illegal_parameter, naming the representation and what is
 /// legal, for unknown names, unreadable values and values out of range.
 Result<Parameters> parse_parameters(const std::string& representation,
                                     const std::map<std::string, std::string>& words = {});
 
-/// The parameters, with even kernels raised by 1. Errors: illegal_parameter as above. Geometry is checked when
-/// the sensor is known.
+/// The parameters, with even kernels raised by 1. Errors: illegal_parameter as above. Geometry is checked
+/// when the sensor is known.
 Result<Parameters> checked_parameters(Parameters parameters);
 
 }  // namespace scarf

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
+#include "scarf/filter.h"
 #include "scarf/parameters.h"
 #include "scarf/scarf.h"
 
@@ -17,5 +19,10 @@ Result<std::unique_ptr<Scarf>> make_reference_scarf(const Geometry& geometry,
 /// representation cannot be on.
 Result<std::unique_ptr<Representation>> make_reference_representation(const Parameters& parameters,
                                                                       SensorSize sensor);
+
+/// A representation behind noise filters: it sees what passes all of them. Errors: illegal_parameter as
+/// checked_filter.
+Result<std::unique_ptr<Representation>> behind_filters(std::unique_ptr<Representation> representation,
+                                                       std::span<const FilterParameters> filters);
 
 }  // namespace scarf

@@ -19,12 +19,22 @@ struct PushReport {
   uint64_t outside = 0;   ///< accepted events outside the sensor: counted and dropped
 };
 
+/// What became of the events of a stream at one noise filter in front of it (scarf/filter.h).
+struct FilterReport {
+  uint64_t passed = 0;    ///< inside the sensor and handed on
+  uint64_t rejected = 0;  ///< inside the sensor and not handed on
+  uint64_t outside = 0;   ///< outside the sensor: handed on untouched, for the representation to count
+
+  friend bool operator==(const FilterReport&, const FilterReport&) = default;
+};
+
 /// The time of a pixel that never fired, in raw images and states.
 inline constexpr int64_t kNeverFired = INT64_MIN;
 
 /// One stream's representation. What each one is, and which parameters it has: scarf/parameters.h.
 /// Implementations (the CPU reference, the GPU) agree bit for bit on everything they hand out, for any stream
-/// and any way of cutting it into batches; aed_sae and aae agree within the bounds of docs/REPRESENTATIONS.md.
+/// and any way of cutting it into batches; aed_sae and aae agree within the bounds of
+/// docs/REPRESENTATIONS.md.
 ///
 /// Threads: one thread pushes and resets; any thread queries. A query sees exactly the pushes that returned
 /// before it was asked. It never changes what later queries show, except for aae and for chain_sae with
@@ -50,8 +60,8 @@ class Representation {
   virtual Pending<Image<float>> float_image(std::optional<int64_t> now = {}) = 0;
   /// The integers behind the picture: scarf stored active events, time_window the last time or the count, sae
   /// the last times (plane 0 = OFF, plane 1 = ON), eros and tos the age (65,535: never fired), sits the
-  /// value, chain_sae the rank (-1: no rank), aed_sae the last time, aae how often a pixel is drawn. Times are
-  /// microseconds, or kNeverFired.
+  /// value, chain_sae the rank (-1: no rank), aed_sae the last time, aae how often a pixel is drawn. Times
+  /// are microseconds, or kNeverFired.
   virtual Pending<Image<int64_t>> raw_image() = 0;
   /// The sparse events behind the picture, where there are any: the active ones of scarf (by patch), the
   /// queues of aae (by block), those of the window of time_window (in order of arrival; with `counts` only).
@@ -61,6 +71,8 @@ class Representation {
   /// All that later pictures depend on, as little-endian bytes: equal states have equal bytes, whoever made
   /// them. The layout is in docs/REPRESENTATIONS.md.
   virtual Pending<std::vector<uint8_t>> state() = 0;
+  /// The noise filters in front, in their order; empty without any.
+  virtual Pending<std::vector<FilterReport>> filter_reports() { return std::vector<FilterReport>(); }
 };
 
 }  // namespace scarf

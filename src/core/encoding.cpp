@@ -8,66 +8,49 @@ namespace scarf {
 namespace {
 
 constexpr int64_t kLongest = 1'000'000'000;
-constexpr int64_t kMaxRadius = 16;
+constexpr int32_t kMaxRadius = 16;
 
 }  // namespace
 
 template <class Visit>
-void visit_fields(VoxelGridParameters& p, Visit visit) {
-  visit(number_field("bins", 1, 256, "slices of time"), p.bins);
-  visit(choice_field("convention", {"e2vid", "eventgan"}, "ON minus OFF, or planes of their own"),
-        p.convention);
+void fields(VoxelGridParameters& p, Visit visit) {
+  visit(between("bins", p.bins, 1, 256, "slices of time"));
+  visit(choice("convention", p.convention, {"e2vid", "eventgan"}, "ON minus OFF, or planes of their own"));
 }
 
 template <class Visit>
-void visit_fields(ToreParameters& p, Visit visit) {
-  visit(number_field("k", 1, 64, "newest events kept per pixel and polarity"), p.k);
+void fields(ToreParameters& p, Visit visit) {
+  visit(between("k", p.k, 1, 64, "newest events kept per pixel and polarity"));
 }
 
 template <class Visit>
-void visit_fields(EventImageParameters&, Visit) {}
+void fields(EventImageParameters&, Visit) {}
 
 template <class Visit>
-void visit_fields(TimeSurfaceParameters& p, Visit visit) {
-  visit(time_field("tau", 1, kLongest, "time constant"), p.tau);
+void fields(TimeSurfaceParameters& p, Visit visit) {
+  visit(between("tau", p.tau, 1, kLongest, "time constant"));
 }
 
 template <class Visit>
-void visit_fields(HatsParameters& p, Visit visit) {
-  visit(number_field("cell", 1, kMaxSensorSize, "pixels per side of a cell"), p.cell);
-  visit(number_field("radius", 0, kMaxRadius, "reach of a time surface in pixels"), p.radius);
-  visit(time_field("tau", 1, kLongest, "time constant"), p.tau);
-  visit(time_field("window", 1, kLongest, "events older than this are forgotten"), p.window);
+void fields(HatsParameters& p, Visit visit) {
+  visit(between("cell", p.cell, 1, kMaxSensorSize, "pixels per side of a cell"));
+  visit(between("radius", p.radius, 0, kMaxRadius, "reach of a time surface in pixels"));
+  visit(between("tau", p.tau, 1, kLongest, "time constant"));
+  visit(between("window", p.window, 1, kLongest, "events older than this are forgotten"));
 }
 
 template <class Visit>
-void visit_fields(HotsParameters& p, Visit visit) {
-  visit(number_field("cell", 1, kMaxSensorSize, "pixels per side of a cell"), p.cell);
-  visit(number_field("radius", 0, kMaxRadius, "reach of a time surface in pixels"), p.radius);
-  visit(time_field("tau", 1, kLongest, "time constant"), p.tau);
+void fields(HotsParameters& p, Visit visit) {
+  visit(between("cell", p.cell, 1, kMaxSensorSize, "pixels per side of a cell"));
+  visit(between("radius", p.radius, 0, kMaxRadius, "reach of a time surface in pixels"));
+  visit(between("tau", p.tau, 1, kLongest, "time constant"));
 }
 
 namespace {
 
-template <class Parameters>
+template <class P>
 EncodingInfo info(std::string name, std::string title, std::string description, bool cpu_only = false) {
-  return {std::move(name), std::move(title), std::move(description), describe_fields<Parameters>(), cpu_only};
-}
-
-// The encoding of a name with parameters from words; tries the alternatives one after the other.
-template <size_t kIndex = 0>
-Result<EncodingParameters> read(const NamedWords& parts) {
-  if constexpr (kIndex == std::variant_size_v<EncodingParameters>) {
-    std::vector<std::string> known;
-    for (const EncodingInfo& each : encodings()) known.push_back(each.name);
-    return unknown_name("encoding", parts.name, known);
-  } else {
-    if (parts.name != encodings()[kIndex].name) return read<kIndex + 1>(parts);
-    using Parameters = std::variant_alternative_t<kIndex, EncodingParameters>;
-    const auto parameters = read_fields<Parameters>("encoding " + parts.name, parts.words);
-    if (!parameters) return parameters.error();
-    return EncodingParameters(*parameters);
-  }
+  return {std::move(name), std::move(title), std::move(description), describe_fields<P>(), cpu_only};
 }
 
 int32_t ceil_div(int32_t a, int32_t b) {
@@ -120,16 +103,14 @@ const EncodingInfo& info_of(const EncodingParameters& parameters) {
 }
 
 Result<EncodingParameters> parse_encoding(const std::string& words) {
-  const auto parts = split_words("encoding", words);
-  if (!parts) return parts.error();
-  return read(*parts);
+  const auto named = split_words("encoding", words);
+  if (!named) return named.error();
+  const auto parameters = read_alternative<EncodingParameters>("encoding", encodings(), *named);
+  return parameters ? checked_encoding(*parameters) : parameters;
 }
 
 Result<EncodingParameters> checked_encoding(const EncodingParameters& parameters) {
-  const std::string subject = "encoding " + info_of(parameters).name;
-  const auto result = std::visit([&](const auto& p) { return check_fields(subject, p); }, parameters);
-  if (!result) return result.error();
-  return parameters;
+  return checked_alternative(parameters);
 }
 
 EncodingShape shape_of(const EncodingParameters& parameters, SensorSize sensor) {

@@ -1,78 +1,81 @@
 #include "core/fields.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace scarf {
 namespace {
 
-constexpr int64_t kMillisecond = 1'000;
-constexpr int64_t kSecond = 1'000'000;
-
-// A time in the largest unit that writes it as a whole number.
-std::string time_text(int64_t microseconds) {
-  if (microseconds % kSecond == 0) return text(microseconds / kSecond, "s");
-  if (microseconds % kMillisecond == 0) return text(microseconds / kMillisecond, "ms");
-  return text(microseconds, "us");
+Error illegal(const std::string& message) {
+  return {ErrorCode::illegal_parameter, message};
 }
 
-std::string range_text(const Field& field) {
-  switch (field.kind) {
-    case Field::Kind::number:
-      return text(field.low, " to ", field.high);
-    case Field::Kind::time:
-      return text(time_text(field.low), " to ", time_text(field.high));
-    case Field::Kind::choice:
-      break;
-  }
-  std::string names;
-  for (const std::string_view choice : field.choices)
-    names += (names.empty() ? "" : " or ") + std::string(choice);
-  return names;
+template <class T>
+bool read_number(const std::string& word, T& value) {
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  return error == std::errc() && stop == end;
 }
 
-Error illegal(const std::string& subject, const Field& field, const std::string& value) {
-  const std::string_view unit = field.kind == Field::Kind::time
-                                    ? ", as a whole number of microseconds or with a suffix us, ms or s"
-                                    : "";
-  return {ErrorCode::illegal_parameter,
-          text(subject, ": ", field.name, " is ", value, ", legal is ", range_text(field), unit)};
-}
-
-// A whole number and what follows it.
-std::optional<std::pair<int64_t, std::string_view>> leading_number(std::string_view word) {
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc()) return std::nullopt;
-  return std::pair(value, word.substr(end - word.data()));
-}
-
-std::optional<int64_t> microseconds_per(std::string_view suffix) {
-  if (suffix.empty() || suffix == "us") return 1;
-  if (suffix == "ms") return kMillisecond;
-  if (suffix == "s") return kSecond;
+// How many decimals of a time in this unit come to whole microseconds.
+std::optional<size_t> decimals_of(const std::string& unit) {
+  if (unit.empty() || unit == "us") return 0;
+  if (unit == "ms") return 3;
+  if (unit == "s") return 6;
   return std::nullopt;
-}
-
-std::optional<int64_t> parsed(const Field& field, const std::string& word) {
-  if (field.kind == Field::Kind::choice) {
-    for (size_t i = 0; i < field.choices.size(); ++i) {
-      if (field.choices[i] == word) return static_cast<int64_t>(i);
-    }
-    return std::nullopt;
-  }
-  const auto number = leading_number(word);
-  if (!number) return std::nullopt;
-  const auto& [value, suffix] = *number;
-  if (field.kind == Field::Kind::number) return suffix.empty() ? std::optional(value) : std::nullopt;
-  const auto scale = microseconds_per(suffix);
-  // Compared before it is multiplied: the product may not fit.
-  if (!scale || value > field.high / *scale || value < 0) return std::nullopt;
-  return value * *scale;
 }
 
 }  // namespace
 
-Result<NamedWords> split_words(std::string_view what, const std::string& line) {
+bool read_word(const std::string& word, int32_t& value) {
+  return read_number(word, value);
+}
+bool read_word(const std::string& word, double& value) {
+  return read_number(word, value);
+}
+
+// The point moves to the right in the digits themselves, so nothing is rounded.
+bool read_word(const std::string& word, int64_t& microseconds) {
+  const size_t unit = std::min(word.find_first_not_of("0123456789."), word.size());
+  const auto decimals = decimals_of(word.substr(unit));
+  const size_t point = std::min(word.find('.'), unit);
+  const std::string whole = word.substr(0, point);
+  std::string fraction = point < unit ? word.substr(point + 1, unit - point - 1) : "";
+  if (!decimals || (whole.empty() && fraction.empty())) return false;
+  fraction.erase(fraction.find_last_not_of('0') + 1);
+  if (fraction.size() > *decimals) return false;
+  fraction.resize(*decimals, '0');
+  return read_number(whole + fraction, microseconds);
+}
+
+std::string word_of(int32_t value) {
+  return text(value);
+}
+std::string word_of(double value) {
+  return text(value);
+}
+std::string word_of(int64_t microseconds) {
+  if (microseconds % 1'000'000 == 0) return text(microseconds / 1'000'000, "s");
+  if (microseconds % 1'000 == 0) return text(microseconds / 1'000, "ms");
+  return text(microseconds, "us");
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
+  return line;
+}
+
+Error illegal_value(const std::string& subject, const Field& field, const std::string& value) {
+  return illegal(text(subject, ": ", field.name, " is ", value, ", legal is ", field.range));
+}
+
+Error unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  return illegal(text(what, " '", name, "' is unknown; ",
+                      known.empty() ? "there is none" : "use one of " + joined(known)));
+}
+
+Result<NamedWords> split_words(const std::string& what, const std::string& line) {
   const size_t colon = line.find(':');
   NamedWords result{line.substr(0, colon), {}};
   if (colon == std::string::npos) return result;
@@ -84,41 +87,13 @@ Result<NamedWords> split_words(std::string_view what, const std::string& line) {
     if (more) rest.remove_prefix(comma + 1);
     const size_t equals = word.find('=');
     if (equals == std::string_view::npos || equals == 0) {
-      return Error{ErrorCode::illegal_parameter,
-                   text(what, " '", line, "': '", word, "' is no parameter; write ", what,
-                        "s as name:parameter=value,parameter=value")};
+      return illegal(text(what, " '", line, "': '", word, "' is no parameter; write ", what,
+                          "s as name:parameter=value,parameter=value"));
     }
-    if (!result.words.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
-      return Error{ErrorCode::illegal_parameter,
-                   text(what, " '", line, "': ", word.substr(0, equals), " is given twice; give it once")};
-    }
+    if (!result.words.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
+      return illegal(text(what, " '", line, "': ", word.substr(0, equals), " is given twice; give it once"));
   }
   return result;
-}
-
-Result<int64_t> read_field(const std::string& subject, const Field& field, const std::string& word) {
-  const auto value = parsed(field, word);
-  if (!value || *value < field.low || *value > field.high) return illegal(subject, field, "'" + word + "'");
-  return *value;
-}
-
-Result<void> check_field(const std::string& subject, const Field& field, int64_t value) {
-  if (value >= field.low && value <= field.high) return {};
-  return illegal(subject, field, text(value));
-}
-
-ParameterInfo describe_field(const Field& field, int64_t value) {
-  ParameterInfo info{std::string(field.name), text(value), range_text(field), std::string(field.description)};
-  if (field.kind == Field::Kind::time) info.value = time_text(value);
-  if (field.kind == Field::Kind::choice) info.value = field.choices[static_cast<size_t>(value)];
-  return info;
-}
-
-Error unknown_name(std::string_view what, const std::string& name, const std::vector<std::string>& known) {
-  std::string names;
-  for (const std::string& each : known) names += (names.empty() ? "" : ", ") + each;
-  return {ErrorCode::illegal_parameter,
-          text(what, " '", name, "' is unknown; ", known.empty() ? "there is none" : "use one of " + names)};
 }
 
 }  // namespace scarf

@@ -11,15 +11,15 @@ constexpr int64_t kLongestPeriod = 1'000'000'000;
 }  // namespace
 
 template <class Visit>
-void visit_fields(SupportFilter& p, Visit visit) {
-  visit(number_field("range", 1, 7, "pixels around the event that may support it"), p.range);
-  visit(time_field("period", 1, kLongestPeriod, "how old the support may be"), p.period);
+void fields(SupportFilter& p, Visit visit) {
+  visit(between("range", p.range, 1, 7, "pixels around the event that may support it"));
+  visit(between("period", p.period, 1, kLongestPeriod, "how old the support may be"));
 }
 
 template <class Visit>
-void visit_fields(RefractoryFilter& p, Visit visit) {
-  visit(time_field("period", 1, kLongestPeriod, "how long a pixel is blind after an event that passed"),
-        p.period);
+void fields(RefractoryFilter& p, Visit visit) {
+  visit(
+      between("period", p.period, 1, kLongestPeriod, "how long a pixel is blind after an event that passed"));
 }
 
 std::span<const FilterInfo> filters() {
@@ -37,25 +37,14 @@ const FilterInfo& info_of(const FilterParameters& parameters) {
 }
 
 Result<FilterParameters> parse_filter(const std::string& words) {
-  const auto parts = split_words("filter", words);
-  if (!parts) return parts.error();
-  const auto read = [&]<class Parameters>(Parameters) -> Result<FilterParameters> {
-    auto parameters = read_fields<Parameters>("filter " + parts->name, parts->words);
-    if (!parameters) return parameters.error();
-    return FilterParameters(*parameters);
-  };
-  if (parts->name == "support") return read(SupportFilter{});
-  if (parts->name == "refractory") return read(RefractoryFilter{});
-  std::vector<std::string> known;
-  for (const FilterInfo& info : filters()) known.push_back(info.name);
-  return unknown_name("filter", parts->name, known);
+  const auto named = split_words("filter", words);
+  if (!named) return named.error();
+  const auto parameters = read_alternative<FilterParameters>("filter", filters(), *named);
+  return parameters ? checked_filter(*parameters) : parameters;
 }
 
 Result<FilterParameters> checked_filter(const FilterParameters& parameters) {
-  const std::string subject = "filter " + info_of(parameters).name;
-  const auto result = std::visit([&](const auto& p) { return check_fields(subject, p); }, parameters);
-  if (!result) return result.error();
-  return parameters;
+  return checked_alternative(parameters);
 }
 
 Result<std::span<const Event>> FilterChain::filter(std::span<const Event> events) {

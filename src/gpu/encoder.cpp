@@ -18,14 +18,6 @@ using vulkan::Buffer;
 using vulkan::Commands;
 using vulkan::Kernel;
 
-/// The kernels that read events: the span of times, and up to three of the encoding's own.
-class Encoder::Bound {
- public:
-  DeviceEvents events;
-  BoundKernel span;
-  BoundKernel stages[3];
-};
-
 namespace {
 
 constexpr uint64_t kWord = sizeof(uint32_t);
@@ -241,8 +233,8 @@ class ToreEncoder final : public EncoderBase {
     over_events(commands, bound.stages[1], push);
     // A pixel may have all the events, as far as is known.
     const uint64_t known = bound.events.most_per_pixel;
-    const auto longest =
-        static_cast<uint32_t>(known != 0 ? std::min(known, bound.events.most_events) : bound.events.most_events);
+    const auto longest = static_cast<uint32_t>(known != 0 ? std::min(known, bound.events.most_events)
+                                                          : bound.events.most_events);
     const uint32_t part = device_.limits().loop_trips - 1;
     for (push.begin = 0; push.begin < longest; push.begin = push.end) {
       push.end = push.begin + std::min(part, longest - push.begin);
@@ -277,9 +269,8 @@ struct Maker {
     const uint64_t most = device.limits().storage_range / sizeof(float);
     const auto entries = static_cast<uint64_t>(TimeSurfaceEncoder::table_entries(p.tau));
     if (entries > most) {
-      return Error{ErrorCode::illegal_parameter,
-                   text("encoding time_surface: tau is ", p.tau, ", legal on this device is 1 to ",
-                        (most - 1) / 18)};
+      return Error{ErrorCode::illegal_parameter, text("encoding time_surface: tau is ", p.tau,
+                                                      ", legal on this device is 1 to ", (most - 1) / 18)};
     }
     return {std::make_unique<TimeSurfaceEncoder>(device, shape, sensor, p.tau)};
   }

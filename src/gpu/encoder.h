@@ -26,7 +26,11 @@ struct DeviceEvents {
 class Encoder {
  public:
   /// Kernels bound to some events. The encoder and the buffers must outlive it.
-  class Bound;
+  struct Bound {
+    DeviceEvents events;
+    vulkan::BoundKernel span;
+    vulkan::BoundKernel stages[3];  // of the encoding
+  };
 
   virtual ~Encoder() = default;
 

@@ -143,8 +143,8 @@ void EventLog::record_copy_back(Commands& commands) const {
 uint32_t EventLog::bound() {
   std::lock_guard lock(known_->mutex);
   if (known_->generation == generation_) {
-    bound_ = static_cast<uint32_t>(
-        std::min<uint64_t>(bound_, known_->length + (appended_ - known_->appended)));
+    bound_ =
+        static_cast<uint32_t>(std::min<uint64_t>(bound_, known_->length + (appended_ - known_->appended)));
   }
   return bound_;
 }

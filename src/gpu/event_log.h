@@ -17,10 +17,10 @@ namespace scarf {
 
 /// The memory of a log, and what it is copied with. Made anew when the log grows.
 struct EventLogMemory {
-  uint32_t capacity = 0;    ///< events
-  vulkan::Buffer events;    ///< the log
-  vulkan::Buffer scratch;   ///< as large
-  vulkan::Buffer places;    ///< one word per run of events, and two
+  uint32_t capacity = 0;   ///< events
+  vulkan::Buffer events;   ///< the log
+  vulkan::Buffer scratch;  ///< as large
+  vulkan::Buffer places;   ///< one word per run of events, and two
   PrefixSum::Source prefix;
 
   struct Copy {
@@ -46,9 +46,9 @@ class EventLog {
  public:
   struct Shape {
     SensorSize sensor;
-    uint32_t first_events = 0;  ///< capacity at first
+    uint32_t first_events = 0;              ///< capacity at first
     uint32_t most_events = UINT32_MAX / 2;  ///< if the device has buffers for so many
-    uint32_t keep = 0;          ///< layout::kKeepSince or kKeepNewest: how events are dropped
+    uint32_t keep = 0;                      ///< layout::kKeepSince or kKeepNewest: how events are dropped
     // With kKeepNewest:
     const vulkan::Buffer* keep_from = nullptr;  ///< per block: index of the first event to keep
     SensorSize block;                           ///< pixels

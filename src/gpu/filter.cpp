@@ -12,14 +12,25 @@ using vulkan::Buffer;
 using vulkan::Commands;
 using vulkan::MemoryUse;
 
-// Small enough for many invocations, large enough that few events are in the lists of several tiles.
-constexpr uint32_t kTile = 16;
 constexpr uint64_t kReportBytes = layout::kFilterReportWords * sizeof(uint32_t);
 
 // Trips of filter_support.comp and filter_refractory.comp per event of a list, entries included.
 uint32_t trips_per_event(uint32_t range) {
   const uint32_t side = 2 * range + 1;
   return range == 0 ? 1 : 1 + 1 + side * (1 + side + 1);
+}
+
+// Small tiles give a GPU many invocations. A CPU needs few, and the table of tiles and chunks costs it most:
+// large tiles and short chunks are cheapest there.
+TileListsPlan lists_for(SensorSize sensor, uint32_t range, uint32_t most_events,
+                        const vulkan::Limits& limits) {
+  constexpr uint32_t kTileGpu = 16;
+  constexpr uint32_t kTileCpu = 64;
+  constexpr uint32_t kChunkEventsCpu = 32;
+  TileListsPlan plan =
+      make_tile_lists_plan(sensor, limits.cpu ? kTileCpu : kTileGpu, range, most_events, limits);
+  if (limits.cpu) plan.chunk_events = std::min(plan.chunk_events, kChunkEventsCpu);
+  return plan;
 }
 
 uint64_t number(const uint32_t* report, uint32_t word) {
@@ -41,8 +52,8 @@ void DeviceFilter::build(PipelineBuilder& b, const FilterParameters& parameters,
   sensor_ = sensor;
   const vulkan::Limits& limits = b.device().limits();
   segment_events_ = std::max(1u, (limits.loop_trips - 2) / trips_per_event(range_));
-  lists_.build(b, make_tile_lists_plan(sensor, kTile, range_, most_events, limits));
-  const uint64_t side = kTile + 2 * range_;
+  lists_.build(b, lists_for(sensor, range_, most_events, limits));
+  const uint64_t side = lists_.plan().tile + 2 * range_;
   const uint64_t times = support != nullptr ? 2 * side * side * lists_.plan().tiles()
                                             : static_cast<uint64_t>(sensor.width) * sensor.height;
   b.buffer(last_, "the last times of the filter", times * sizeof(int64_t));
@@ -93,11 +104,9 @@ void DeviceFilter::record(Commands& commands, const Bound& bound, uint32_t first
   commands.mark("filter");
 }
 
-Result<std::unique_ptr<FilteredPipeline>> FilteredPipeline::create(vulkan::Device& device,
-                                                                   std::unique_ptr<Pipeline> inner,
-                                                                   ImagePipeline* images,
-                                                                   bool asks_for_newest,
-                                                                   std::span<const FilterParameters> filters) {
+Result<std::unique_ptr<FilteredPipeline>> FilteredPipeline::create(
+    vulkan::Device& device, std::unique_ptr<Pipeline> inner, ImagePipeline* images, bool asks_for_newest,
+    std::span<const FilterParameters> filters) {
   for (const FilterParameters& filter : filters) {
     if (auto r = checked_filter(filter); !r) return r.error();
   }
@@ -140,18 +149,18 @@ void FilteredPipeline::record_reset(Commands& commands) {
 }
 
 void FilteredPipeline::record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                                   const StreamTimes& times) {
-  const int64_t t_first = times.first.value_or(0);
+                                   const StreamFacts& facts) {
+  const int64_t t_first = facts.first.value_or(0);
   filters_.front()->record(commands, static_cast<const FilterBinding&>(binding).first, first, count, t_first);
   for (size_t i = 0; i < behind_.size(); ++i) {
     filters_[i + 1]->record(commands, behind_[i], 0, count, t_first);
   }
-  inner_->record_push(commands, *filtered_, 0, count, known(times));
+  inner_->record_push(commands, *filtered_, 0, count, known(facts));
 }
 
 // The times of the events that passed, as far as they are asked for.
-Result<StreamTimes> FilteredPipeline::passed(const StreamTimes& times) {
-  StreamTimes answer = known(times);
+Result<StreamFacts> FilteredPipeline::passed(const StreamFacts& facts) {
+  StreamFacts answer = known(facts);
   if (!asks_for_newest_) return answer;
   if (auto r = asking_.begin(); !r) return r.error();
   asking_.copy(filters_.back()->report(), 0, asked_, 0, kReportBytes);
@@ -164,49 +173,49 @@ Result<StreamTimes> FilteredPipeline::passed(const StreamTimes& times) {
   return answer;
 }
 
-Result<Answer<Image<uint8_t>>> FilteredPipeline::record_u8(Commands& commands, const StreamTimes& times,
+Result<Answer<Image<uint8_t>>> FilteredPipeline::record_u8(Commands& commands, const StreamFacts& facts,
                                                            std::optional<int64_t> now) {
-  const auto known_times = now ? known(times) : passed(times);
-  if (!known_times) return known_times.error();
-  return images_->record_u8(commands, *known_times, now);
+  const auto known_facts = now ? known(facts) : passed(facts);
+  if (!known_facts) return known_facts.error();
+  return images_->record_u8(commands, *known_facts, now);
 }
 
-Result<Answer<Image<float>>> FilteredPipeline::record_float(Commands& commands, const StreamTimes& times,
+Result<Answer<Image<float>>> FilteredPipeline::record_float(Commands& commands, const StreamFacts& facts,
                                                             std::optional<int64_t> now) {
-  const auto known_times = now ? known(times) : passed(times);
-  if (!known_times) return known_times.error();
-  return images_->record_float(commands, *known_times, now);
+  const auto known_facts = now ? known(facts) : passed(facts);
+  if (!known_facts) return known_facts.error();
+  return images_->record_float(commands, *known_facts, now);
 }
 
-Result<Answer<Image<int64_t>>> FilteredPipeline::record_raw(Commands& commands, const StreamTimes& times) {
-  const auto known_times = passed(times);
-  if (!known_times) return known_times.error();
-  return images_->record_raw(commands, *known_times);
+Result<Answer<Image<int64_t>>> FilteredPipeline::record_raw(Commands& commands, const StreamFacts& facts) {
+  const auto known_facts = passed(facts);
+  if (!known_facts) return known_facts.error();
+  return images_->record_raw(commands, *known_facts);
 }
 
 Result<Answer<std::vector<uint8_t>>> FilteredPipeline::record_state(Commands& commands,
-                                                                    const StreamTimes& times) {
-  const auto known_times = passed(times);
-  if (!known_times) return known_times.error();
-  return images_->record_state(commands, *known_times);
+                                                                    const StreamFacts& facts) {
+  const auto known_facts = passed(facts);
+  if (!known_facts) return known_facts.error();
+  return images_->record_state(commands, *known_facts);
 }
 
 Result<Answer<std::vector<Event>>> FilteredPipeline::record_events(Commands& commands,
-                                                                   const StreamTimes& times) {
-  const auto known_times = passed(times);
-  if (!known_times) return known_times.error();
-  return images_->record_events(commands, *known_times);
+                                                                   const StreamFacts& facts) {
+  const auto known_facts = passed(facts);
+  if (!known_facts) return known_facts.error();
+  return images_->record_events(commands, *known_facts);
 }
 
-Answer<std::vector<FilterReport>> FilteredPipeline::record_reports() const {
+Answer<std::vector<FilterReport>> FilteredPipeline::reports(const StreamFacts& facts) const {
   Answer<std::vector<FilterReport>> answer;
   for (const auto& filter : filters_) answer.parts.push_back({&filter->report(), kReportBytes});
-  answer.read = [](HostParts parts) -> Result<std::vector<FilterReport>> {
+  answer.read = [outside = facts.outside](HostParts parts) -> Result<std::vector<FilterReport>> {
     std::vector<FilterReport> reports;
     for (const void* part : parts) {
       const auto* report = static_cast<const uint32_t*>(part);
       reports.push_back({number(report, layout::kFilterTotalPassed),
-                         number(report, layout::kFilterTotalRejected), 0});
+                         number(report, layout::kFilterTotalRejected), outside});
     }
     return reports;
   };

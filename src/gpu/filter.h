@@ -30,7 +30,8 @@ class DeviceFilter {
 
   void record_reset(vulkan::Commands& commands) const;
   /// Writes those of events first .. first+count-1 that pass to filtered(), the first one's place being 0; at
-  /// the places of the others are events outside the sensor. What was written before must be visible; the result is visible to what follows.
+  /// the places of the others are events outside the sensor. What was written before must be visible; the
+  /// result is visible to what follows.
   void record(vulkan::Commands& commands, const Bound& bound, uint32_t first, uint32_t count,
               int64_t t_first) const;
 
@@ -50,12 +51,12 @@ class DeviceFilter {
 };
 
 /// A pipeline behind filters. Its queries are those of the pipeline; what the pipeline sees as the stream's
-/// newest event is the newest one that passed, which only the device knows: a query whose answer depends on it
-/// waits for the events pushed before.
+/// newest event is the newest one that passed, which only the device knows: a query whose answer depends on
+/// it waits for the events pushed before.
 class FilteredPipeline final : public ImagePipeline {
  public:
   /// `images` answers queries and is `inner` itself; null if the caller asks the pipeline within directly.
-  /// `asks_for_newest`: its queries depend on StreamTimes::newest. None may depend on StreamTimes::largest,
+  /// `asks_for_newest`: its queries depend on StreamFacts::newest. None may depend on StreamFacts::largest,
   /// which is not known behind filters. `filters` are at least one.
   /// Errors: illegal_parameter as checked_filter; out_of_memory.
   static Result<std::unique_ptr<FilteredPipeline>> create(vulkan::Device& device,
@@ -70,29 +71,28 @@ class FilteredPipeline final : public ImagePipeline {
   void record_reset(vulkan::Commands& commands) override;
   Result<void> prepare_push(uint32_t count) override { return inner_->prepare_push(count); }
   void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes& times) override;
+                   const StreamFacts& facts) override;
 
-  Result<Answer<Image<uint8_t>>> record_u8(vulkan::Commands& commands, const StreamTimes& times,
+  Result<Answer<Image<uint8_t>>> record_u8(vulkan::Commands& commands, const StreamFacts& facts,
                                            std::optional<int64_t> now) override;
-  Result<Answer<Image<float>>> record_float(vulkan::Commands& commands, const StreamTimes& times,
+  Result<Answer<Image<float>>> record_float(vulkan::Commands& commands, const StreamFacts& facts,
                                             std::optional<int64_t> now) override;
-  Result<Answer<Image<int64_t>>> record_raw(vulkan::Commands& commands, const StreamTimes& times) override;
+  Result<Answer<Image<int64_t>>> record_raw(vulkan::Commands& commands, const StreamFacts& facts) override;
   Result<Answer<std::vector<uint8_t>>> record_state(vulkan::Commands& commands,
-                                                    const StreamTimes& times) override;
+                                                    const StreamFacts& facts) override;
   Result<Answer<std::vector<Event>>> record_events(vulkan::Commands& commands,
-                                                   const StreamTimes& times) override;
+                                                   const StreamFacts& facts) override;
 
-  /// What became of the events, in the order of the filters. FilterReport::outside is 0: the stream counts
-  /// the events outside the sensor, which are the same for every filter.
-  Answer<std::vector<FilterReport>> record_reports() const;
+  /// What became of the events, in the order of the filters.
+  Answer<std::vector<FilterReport>> reports(const StreamFacts& facts) const;
 
  private:
   FilteredPipeline(vulkan::Device& device, std::unique_ptr<Pipeline> inner, ImagePipeline* images,
                    bool asks_for_newest)
       : device_(device), inner_(std::move(inner)), images_(images), asks_for_newest_(asks_for_newest) {}
   void build(PipelineBuilder& builder, std::span<const FilterParameters> filters);
-  StreamTimes known(const StreamTimes& times) const { return {times.first, {}, {}}; }
-  Result<StreamTimes> passed(const StreamTimes& times);
+  StreamFacts known(const StreamFacts& facts) const { return {facts.first, {}, {}}; }
+  Result<StreamFacts> passed(const StreamFacts& facts);
 
   vulkan::Device& device_;
   std::vector<std::unique_ptr<DeviceFilter>> filters_;  // outlive what is bound to them

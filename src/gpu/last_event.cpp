@@ -1,10 +1,13 @@
 #include "gpu/last_event.h"
 
+#include "gpu/pipeline.h"
 #include "shaders/shaders.h"
 
 namespace scarf {
 
-void LastEvent::build(PipelineBuilder& builder, SensorSize sensor, uint32_t planes) {
+void LastEvent::build(PipelineBuilder& builder, SensorSize sensor, uint32_t planes, uint32_t stamp) {
+  device_ = &builder.device();
+  stamp_ = stamp;
   sensor_ = sensor;
   planes_ = planes;
   builder.buffer(entries_, "the last event of each pixel",
@@ -18,16 +21,19 @@ void LastEvent::bind(PipelineBuilder& builder, vulkan::BoundKernel& bound,
 }
 
 void LastEvent::record_reset(vulkan::Commands& commands) {
+  // Stamps go on, so that they are larger than all entries also if this work never gets to the device.
   commands.fill(entries_, 0);
+}
+
+Result<void> LastEvent::make_room(uint32_t count) {
+  if (count <= UINT32_MAX - stamp_) return {};
+  if (auto r = run_alone(*device_, [this](vulkan::Commands& c) { c.fill(entries_, 0); }); !r) return r;
   stamp_ = 1;
+  return {};
 }
 
 layout::SurfacePush LastEvent::record(vulkan::Commands& commands, const vulkan::BoundKernel& bound,
                                       uint32_t first, uint32_t count) {
-  if (count > UINT32_MAX - stamp_) {  // the stamps run out: those of earlier submissions are not needed
-    record_reset(commands);
-    commands.barrier();
-  }
   layout::SurfacePush push{};
   push.first_event = first;
   push.events = count;

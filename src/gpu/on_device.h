@@ -1,19 +1,32 @@
-// What every representation on a device has in common: it is fed through a Stream.
+// What every representation on a device has in common: it is fed through a Stream, perhaps behind filters.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <utility>
 
+#include "gpu/filter.h"
 #include "gpu/stream.h"
 #include "scarf/gpu.h"
 
 namespace scarf {
 
-/// Implements all of GpuRepresentation but its queries, for an Interface derived from it.
+/// A stream and the filters in front of its pipeline.
+struct Feed {
+  std::shared_ptr<Stream> stream;
+  FilteredPipeline* filtered = nullptr;  ///< of the stream; null without filters
+
+  /// See FilteredPipeline::create for `images` and `asks_for_newest`.
+  static Result<Feed> create(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pipeline,
+                             ImagePipeline* images, bool asks_for_newest, const GpuOptions& options,
+                             std::span<const FilterParameters> filters);
+};
+
+/// Implements all of GpuRepresentation but its own queries, for an Interface derived from it.
 template <class Interface>
 class OnDevice : public Interface {
  public:
-  explicit OnDevice(std::shared_ptr<Stream> stream) : stream_(std::move(stream)) {}
+  explicit OnDevice(Feed feed) : stream_(std::move(feed.stream)), filtered_(feed.filtered) {}
 
   Result<PushReport> push(std::span<const Event> events) override { return stream_->push(events); }
   Result<void> reset() override { return stream_->reset(); }
@@ -24,9 +37,18 @@ class OnDevice : public Interface {
   Result<void> finish() override { return stream_->finish(); }
   std::vector<StageTime> stage_times() const override { return stream_->stage_times(); }
   uint64_t memory_bytes() const override { return stream_->memory_bytes(); }
+  Pending<std::vector<FilterReport>> filter_reports() override {
+    using Reports = std::vector<FilterReport>;
+    if (filtered_ == nullptr) return Reports();
+    return stream_->query<Reports>(QueryKind::state,
+                                   [this](Query&, const StreamFacts& facts) -> Result<Answer<Reports>> {
+                                     return filtered_->reports(facts);
+                                   });
+  }
 
  protected:
   std::shared_ptr<Stream> stream_;
+  FilteredPipeline* filtered_;
 };
 
 }  // namespace scarf

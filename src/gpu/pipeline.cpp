@@ -10,7 +10,16 @@ Result<void> Pipeline::prepare_push(uint32_t) {
   return {};
 }
 
-Result<Answer<std::vector<Event>>> ImagePipeline::record_events(vulkan::Commands&, const StreamTimes&) {
+Result<void> run_alone(vulkan::Device& device, const std::function<void(vulkan::Commands&)>& record) {
+  auto commands = vulkan::Commands::create(device, device.compute());
+  if (!commands) return commands.error();
+  if (auto r = commands->begin(); !r) return r;
+  record(*commands);
+  if (auto r = commands->submit(); !r) return r;
+  return commands->wait();
+}
+
+Result<Answer<std::vector<Event>>> ImagePipeline::record_events(vulkan::Commands&, const StreamFacts&) {
   return no_events();
 }
 

@@ -15,11 +15,13 @@
 
 namespace scarf {
 
-/// Times of a stream's events inside the sensor, in microseconds; nullopt: no event yet.
-struct StreamTimes {
+/// What the host knows of a stream: times of its events inside the sensor, in microseconds (nullopt: no event
+/// yet), and how many were outside.
+struct StreamFacts {
   std::optional<int64_t> first;    ///< of the first event
   std::optional<int64_t> newest;   ///< of the last event to arrive
   std::optional<int64_t> largest;  ///< of any event
+  uint64_t outside = 0;
 };
 
 /// Kernels bound to one buffer of events; each pipeline has its own kind.
@@ -36,7 +38,8 @@ class Pipeline {
   virtual SensorSize sensor() const = 0;
   /// Most events of one record_push.
   virtual uint32_t submission_events() const = 0;
-  /// Binds a buffer of events (16 bytes each).
+  /// Binds a buffer of events (16 bytes each). The buffer object may be moved afterwards: keep no pointer to
+  /// it.
   virtual Result<std::unique_ptr<EventBinding>> bind_events(const vulkan::Buffer& events) = 0;
 
   /// Empties the state.
@@ -46,7 +49,7 @@ class Pipeline {
   virtual Result<void> prepare_push(uint32_t count);
   /// Events first .. first+count-1 of the bound buffer join the state. `times` include them.
   virtual void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                           const StreamTimes& times) = 0;
+                           const StreamFacts& facts) = 0;
 
   /// Device memory of the state.
   virtual uint64_t memory_bytes() const = 0;
@@ -69,20 +72,24 @@ struct Answer {
   std::function<Result<T>(HostParts)> read;
 };
 
+/// Runs what `record` records at once, after everything submitted so far, and waits for it: for work that
+/// must be known to be done before a pipeline goes on.
+Result<void> run_alone(vulkan::Device& device, const std::function<void(vulkan::Commands&)>& record);
+
 /// A pipeline with the queries of Representation.
 class ImagePipeline : public Pipeline {
  public:
   // Each records what its query needs. `now`: see Representation.
-  virtual Result<Answer<Image<uint8_t>>> record_u8(vulkan::Commands& commands, const StreamTimes& times,
+  virtual Result<Answer<Image<uint8_t>>> record_u8(vulkan::Commands& commands, const StreamFacts& facts,
                                                    std::optional<int64_t> now) = 0;
-  virtual Result<Answer<Image<float>>> record_float(vulkan::Commands& commands, const StreamTimes& times,
+  virtual Result<Answer<Image<float>>> record_float(vulkan::Commands& commands, const StreamFacts& facts,
                                                     std::optional<int64_t> now) = 0;
-  virtual Result<Answer<Image<int64_t>>> record_raw(vulkan::Commands& commands, const StreamTimes& times) = 0;
+  virtual Result<Answer<Image<int64_t>>> record_raw(vulkan::Commands& commands, const StreamFacts& facts) = 0;
   virtual Result<Answer<std::vector<uint8_t>>> record_state(vulkan::Commands& commands,
-                                                            const StreamTimes& times) = 0;
+                                                            const StreamFacts& facts) = 0;
   /// The default refuses: see Representation::events.
   virtual Result<Answer<std::vector<Event>>> record_events(vulkan::Commands& commands,
-                                                           const StreamTimes& times);
+                                                           const StreamFacts& facts);
 };
 
 /// A buffer that begins with the pixels of an image.

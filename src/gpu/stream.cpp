@@ -17,11 +17,12 @@ namespace {
 
 constexpr size_t kIdleLimit = 32;  // command buffers in flight before a call waits for one
 
-StreamTimes with(StreamTimes times, const CheckedBatch& batch) {
-  times.first = batch.t_first;
-  if (batch.t_newest) times.newest = batch.t_newest;
-  if (batch.t_largest) times.largest = std::max(times.largest.value_or(*batch.t_largest), *batch.t_largest);
-  return times;
+StreamFacts with(StreamFacts facts, const CheckedBatch& batch) {
+  facts.first = batch.t_first;
+  facts.outside += batch.outside;
+  if (batch.t_newest) facts.newest = batch.t_newest;
+  if (batch.t_largest) facts.largest = std::max(facts.largest.value_or(*batch.t_largest), *batch.t_largest);
+  return facts;
 }
 
 }  // namespace
@@ -87,17 +88,17 @@ Result<void> Stream::start() {
 Result<PushReport> Stream::push(std::span<const Event> events) {
   std::lock_guard lock(mutex_);
   if (auto r = ready_to_push(); !r) return r.error();
-  auto batch = check_batch(events, sensor(), times_.first);
+  auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
-  const StreamTimes before = times_;
-  times_ = with(before, *batch);
+  const StreamFacts before = facts_;
+  facts_ = with(before, *batch);
   size_t accepted = 0;
   while (accepted < events.size()) {
     const auto slot = open_slot(1);
     if (!slot && slot.error().code == ErrorCode::would_block) {
       // A batch that was taken in part counts as that part.
       batch = check_batch(events.first(accepted), sensor(), before.first);
-      times_ = with(before, *batch);
+      facts_ = with(before, *batch);
       if (accepted == 0) return slot.error();
       break;
     }
@@ -137,9 +138,9 @@ Result<PushReport> Stream::commit(size_t count) {
   acquired_.reset();
   StagingSlot& s = staging_[open_];
   const std::span<const Event> events(s.host.mapped_as<Event>() + s.fill, count);
-  const auto batch = check_batch(events, sensor(), times_.first);
+  const auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
-  times_ = with(times_, *batch);
+  facts_ = with(facts_, *batch);
   s.fill += static_cast<uint32_t>(count);
   if (room(s) == 0) {
     if (auto r = submit_open(); !r) return fail(r.error());
@@ -169,12 +170,16 @@ Result<void> Stream::reset() {
   Commands& c = (*commands)->compute;
   if (auto r = c.begin(); !r) return r;
   pipeline_->record_reset(c);
-  if (auto r = submit(c); !r) return r;
+  if (auto r = submit(c); !r) {
+    failure_ =
+        Error{r.error().code, text("the stream is not empty since a reset failed: ", r.error().message)};
+    return r;
+  }
   push_pool_.give_back(std::move(*commands));
   // Events gathered so far belong to the old stream.
   StagingSlot& open = staging_[open_];
   open.begin = open.fill;
-  times_ = {};
+  facts_ = {};
   failure_.reset();
   return {};
 }
@@ -301,7 +306,7 @@ Result<void> Stream::submit_push(PushCommands& commands, const StagingSlot& s) {
     c.barrier();
     c.mark("upload");
   }
-  pipeline_->record_push(c, *s.binding, s.begin, s.fill - s.begin, times_);
+  pipeline_->record_push(c, *s.binding, s.begin, s.fill - s.begin, facts_);
   return submit(c, wait_queue, wait_value);
 }
 
@@ -333,14 +338,13 @@ Result<std::unique_ptr<Stream::PushCommands>> Stream::take_commands() {
 }
 
 Result<std::unique_ptr<Query>> Stream::take_query(QueryKind kind) {
-  auto query =
-      query_pools_[static_cast<size_t>(kind)].take([this]() -> Result<std::unique_ptr<Query>> {
-        auto commands = Commands::create(device_, device_.compute());
-        if (!commands) return commands.error();
-        auto made = std::make_unique<Query>();
-        made->commands = std::move(*commands);
-        return made;
-      });
+  auto query = query_pools_[static_cast<size_t>(kind)].take([this]() -> Result<std::unique_ptr<Query>> {
+    auto commands = Commands::create(device_, device_.compute());
+    if (!commands) return commands.error();
+    auto made = std::make_unique<Query>();
+    made->commands = std::move(*commands);
+    return made;
+  });
   if (query) collect((*query)->commands);
   return query;
 }
@@ -386,6 +390,7 @@ Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_s
     std::shared_ptr<Stream> stream;
     QueryKind kind;
     std::unique_ptr<Query> query;
+    size_t parts;  // of the answer; an earlier query may have left more results
     std::function<Result<T>(HostParts)> read;
     ~Lease() {
       std::lock_guard lock(stream->mutex_);
@@ -400,21 +405,21 @@ Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_s
   if (!taken) return taken.error();
   Query& q = **taken;
   const uint64_t bytes_before = q.memory_bytes();
-  const auto recorded = [&]() -> Result<std::function<Result<T>(HostParts)>> {
+  auto recorded = [&]() -> Result<Answer<T>> {
     if (auto r = q.commands.begin(); !r) return r.error();
-    auto answer = record(q, times_);
+    auto answer = record(q, facts_);
     if (!answer) return answer.error();
     if (auto r = copy_back(q, answer->parts); !r) return r.error();
     if (auto r = submit(q.commands); !r) return changes_state ? fail(r.error()) : r.error();
-    return std::move(answer->read);
+    return answer;
   }();
   if (!recorded) {
     query_bytes_ -= bytes_before;  // the query is dropped
     return recorded.error();
   }
   query_bytes_ += q.memory_bytes() - bytes_before;
-  std::shared_ptr<Lease> lease(
-      new Lease{shared_from_this(), kind, std::move(*taken), std::move(*recorded)});
+  std::shared_ptr<Lease> lease(new Lease{shared_from_this(), kind, std::move(*taken), recorded->parts.size(),
+                                         std::move(recorded->read)});
   return Pending<T>(
       [lease] {
         const auto done = lease->query->commands.done();
@@ -423,7 +428,7 @@ Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_s
       [lease]() -> Result<T> {
         if (auto r = lease->query->commands.wait(); !r) return r.error();
         std::vector<const void*> parts;
-        for (const Buffer& b : lease->query->results) parts.push_back(b.mapped());
+        for (size_t i = 0; i < lease->parts; ++i) parts.push_back(lease->query->results[i].mapped());
         return lease->read(parts);
       });
 }
@@ -435,5 +440,7 @@ template Pending<Image<int64_t>> Stream::query(QueryKind, const Record<Image<int
 template Pending<std::vector<Event>> Stream::query(QueryKind, const Record<std::vector<Event>>&, bool);
 template Pending<std::vector<uint8_t>> Stream::query(QueryKind, const Record<std::vector<uint8_t>>&, bool);
 template Pending<Snapshot> Stream::query(QueryKind, const Record<Snapshot>&, bool);
+template Pending<std::vector<FilterReport>> Stream::query(QueryKind, const Record<std::vector<FilterReport>>&,
+                                                          bool);
 
 }  // namespace scarf

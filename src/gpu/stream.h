@@ -64,7 +64,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   /// Submits what was gathered, then what `record` records, and hands over what the answer reads.
   /// `changes_state`: the recorded work does; should it not get to the device, the stream is broken.
   template <class T>
-  using Record = std::function<Result<Answer<T>>(Query& query, const StreamTimes& times)>;
+  using Record = std::function<Result<Answer<T>>(Query& query, const StreamFacts& facts)>;
   template <class T>
   Pending<T> query(QueryKind kind, const Record<T>& record, bool changes_state = false);
 
@@ -123,7 +123,8 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Result<std::unique_ptr<PushCommands>> take_commands();
   Result<std::unique_ptr<Query>> take_query(QueryKind kind);
   Result<void> copy_back(Query& query, std::span<const Part> parts);
-  Result<void> submit(vulkan::Commands& c, const vulkan::Queue* wait_queue = nullptr, uint64_t wait_value = 0);
+  Result<void> submit(vulkan::Commands& c, const vulkan::Queue* wait_queue = nullptr,
+                      uint64_t wait_value = 0);
   void collect(vulkan::Commands& c);
 
   std::shared_ptr<GpuContext> context_;  // first, so that the device outlives all that follows
@@ -135,7 +136,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   std::vector<StagingSlot> staging_;
   size_t open_ = 0;                 // the staging slot that gathers events
   std::optional<size_t> acquired_;  // events handed out by acquire, behind the gathered ones
-  StreamTimes times_;               // of all events pushed
+  StreamFacts facts_;               // of all events pushed
   std::optional<Error> failure_;
   uint64_t last_submission_ = 0;  // places in the timelines of the two queues
   uint64_t last_transfer_ = 0;

@@ -125,25 +125,25 @@ class AaePipeline final : public ImagePipeline, private EventLogOwner {
   Result<void> prepare_push(uint32_t count) override { return log_->prepare(count); }
 
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes&) override {
+                   const StreamFacts&) override {
     log_->record_append(commands, *static_cast<AaeBinding&>(binding).input, first, count);
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts&,
                                            std::optional<int64_t>) override {
     record_draws(commands);
     tone_.record_u8(commands, tone_draws_, pixels());
     return with_length(image_answer<uint8_t>(tone_.picture(), sensor_));
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts&,
                                             std::optional<int64_t>) override {
     record_draws(commands);
     tone_.record_float(commands, tone_draws_, pixels());
     return with_length(image_answer<float>(tone_.picture(), sensor_));
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamTimes&) override {
+  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamFacts&) override {
     record_draws(commands);
     const Part part = {&draws_, pixels() * sizeof(uint32_t)};
     return with_length<Image<int64_t>>({{part}, [s = sensor_](HostParts parts) -> Result<Image<int64_t>> {
@@ -154,11 +154,11 @@ class AaePipeline final : public ImagePipeline, private EventLogOwner {
                                         }});
   }
 
-  Result<Answer<std::vector<Event>>> record_events(Commands&, const StreamTimes&) override {
+  Result<Answer<std::vector<Event>>> record_events(Commands&, const StreamFacts&) override {
     return queues<std::vector<Event>>([](Queues queues) { return std::move(queues.events); });
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamTimes&) override {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamFacts&) override {
     return queues<std::vector<uint8_t>>([](const Queues& queues) { return state_of(queues); });
   }
 

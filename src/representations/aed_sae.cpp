@@ -1,4 +1,5 @@
-// aed_sae on a device: the last time of each pixel, a log of the events of the list, and how densely they lie.
+// aed_sae on a device: the last time of each pixel, a log of the events of the list, and how densely they
+// lie.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -24,7 +25,7 @@ using vulkan::Kernel;
 
 constexpr uint32_t kFirstEvents = 1u << 16;
 constexpr uint32_t kLeastGroupRuns = 64;
-constexpr uint32_t kMostClearSteps = 1u << 22;
+constexpr uint32_t kMostClearSteps = 1u << 18;
 
 // The struct AedState of aed_sae_state.glsl.
 struct AedState {
@@ -115,7 +116,7 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
   }
 
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes&) override {
+                   const StreamFacts&) override {
     log_->record_append(commands, *static_cast<AedBinding&>(binding).input, first, count);
     const layout::AedPush push = push_of(layout::kAedNew, count);
     commands.dispatch(sized_.begin, 1, layout::kLinearGroup, push);
@@ -130,7 +131,7 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
     commands.mark("last_time");
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts&,
                                            std::optional<int64_t>) override {
     constexpr uint32_t kPixelsPerInvocation = 4;
     const layout::AedImagePush push = record_density(commands);
@@ -138,26 +139,26 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
     return image_answer<uint8_t>(picture_, sensor_);
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts&,
                                             std::optional<int64_t>) override {
     const layout::AedImagePush push = record_density(commands);
     record_tone(commands, bound_float_, pixels(), push);
     return image_answer<float>(picture_, sensor_);
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands&, const StreamTimes&) override {
-    return Answer<Image<int64_t>>{{last_times_part()}, [s = sensor_](HostParts parts) -> Result<Image<int64_t>> {
-                                    Image<int64_t> raw(s.width, s.height);
-                                    std::copy_n(static_cast<const int64_t*>(parts[0]), raw.pixels.size(),
-                                                raw.pixels.begin());
-                                    return raw;
-                                  }};
+  Result<Answer<Image<int64_t>>> record_raw(Commands&, const StreamFacts&) override {
+    return Answer<Image<int64_t>>{
+        {last_times_part()}, [s = sensor_](HostParts parts) -> Result<Image<int64_t>> {
+          Image<int64_t> raw(s.width, s.height);
+          std::copy_n(static_cast<const int64_t*>(parts[0]), raw.pixels.size(), raw.pixels.begin());
+          return raw;
+        }};
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamTimes&) override {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamFacts&) override {
     const Part events = {&log_->events(), uint64_t{log_->bound()} * sizeof(Event)};
-    const auto read = [count = pixels(), window = window_, known = log_->length_reader()](
-                          HostParts parts) -> Result<std::vector<uint8_t>> {
+    const auto read = [count = pixels(), window = window_,
+                       known = log_->length_reader()](HostParts parts) -> Result<std::vector<uint8_t>> {
       known(parts[3]);
       const auto& state = *static_cast<const AedState*>(parts[0]);
       const auto* last_times = static_cast<const int64_t*>(parts[1]);
@@ -219,7 +220,8 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
   void build_buffers(PipelineBuilder& b) {
     const std::vector<double> by_column = gaussian(sensor_.width);
     const std::vector<double> by_row = gaussian(sensor_.height);
-    peak_ = *std::max_element(by_row.begin(), by_row.end()) * *std::max_element(by_column.begin(), by_column.end());
+    peak_ = *std::max_element(by_row.begin(), by_row.end()) *
+            *std::max_element(by_column.begin(), by_column.end());
     std::vector<double> both = by_column;
     both.insert(both.end(), by_row.begin(), by_row.end());
     b.table<double>(gaussians_, "the Gaussians", both);
@@ -340,7 +342,8 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
   }
 
   void record_last_times(Commands& commands, layout::AedPush push) {
-    if (push.events > UINT32_MAX - stamp_) {  // the stamps run out: those of earlier submissions are not needed
+    if (push.events >
+        UINT32_MAX - stamp_) {  // the stamps run out: those of earlier submissions are not needed
       commands.fill(last_event_, 0);
       commands.barrier();
       stamp_ = 1;

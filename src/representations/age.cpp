@@ -1,5 +1,5 @@
-// eros and tos on a device: the age of each pixel, which is how many events fell into its window since its own last
-// event, and a brightness table over it.
+// eros and tos on a device: the age of each pixel, which is how many events fell into its window since its
+// own last event, and a brightness table over it.
 #include "core/little_endian.h"
 #include "core/sensor_check.h"
 #include "core/tables.h"
@@ -57,24 +57,24 @@ class AgePipeline final : public ImagePipeline {
     last_event_.record_reset(commands);
     commands.fill(ages_, layout::kAgeNever);
     commands.mark("reset");
+  }
+
+  Result<void> prepare_push(uint32_t count) override {
+    if (auto r = last_event_.make_room(count); !r) return r;
+    if (events_since_cut_ + count <= kEventsBeforeCut) return {};
+    const layout::AgeLimitPush cut = {pixels(), layout::kAgeNever};
+    const auto record = [&](Commands& c) { c.dispatch(bound_cut_, pixels(), layout::kLinearGroup, cut); };
+    if (auto r = run_alone(device_, record); !r) return r;
     events_since_cut_ = 0;
+    return {};
   }
 
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes&) override {
+                   const StreamFacts&) override {
     const auto& bound = static_cast<const AgeBinding&>(binding);
     events_since_cut_ += count;
-    if (events_since_cut_ > kEventsBeforeCut) {
-      const layout::AgeLimitPush cut = {pixels(), layout::kAgeNever};
-      commands.dispatch(bound_cut_, pixels(), layout::kLinearGroup, cut);
-      commands.barrier();
-      events_since_cut_ = count;
-    }
-    const layout::SurfacePush push = [&] {
-      layout::SurfacePush p = last_event_.record(commands, bound.last_event, first, count);
-      p.reach = reach_;
-      return p;
-    }();
+    layout::SurfacePush push = last_event_.record(commands, bound.last_event, first, count);
+    push.reach = reach_;
     commands.dispatch(bound.start, count, layout::kLinearGroup, push);
     commands.barrier();
     commands.mark("start");
@@ -83,21 +83,21 @@ class AgePipeline final : public ImagePipeline {
     commands.mark("count");
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts&,
                                            std::optional<int64_t>) override {
     record_shown(commands);
     tone_.record_u8(commands, tone_shown_, pixels());
     return image_answer<uint8_t>(tone_.picture(), sensor_);
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts&,
                                             std::optional<int64_t>) override {
     record_shown(commands);
     tone_.record_float(commands, tone_shown_, pixels());
     return image_answer<float>(tone_.picture(), sensor_);
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamTimes&) override {
+  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamFacts&) override {
     record_shown(commands);
     const auto read = [s = sensor_, n = pixels()](HostParts parts) -> Result<Image<int64_t>> {
       Image<int64_t> raw(s.width, s.height);
@@ -108,7 +108,7 @@ class AgePipeline final : public ImagePipeline {
     return Answer<Image<int64_t>>{{{&shown_, pixels() * sizeof(uint32_t)}}, read};
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands& commands, const StreamTimes&) override {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands& commands, const StreamFacts&) override {
     record_shown(commands);
     const auto read = [n = pixels()](HostParts parts) -> Result<std::vector<uint8_t>> {
       const auto* ages = static_cast<const uint32_t*>(parts[0]);

@@ -10,7 +10,8 @@
 
 namespace scarf {
 
-/// Blocks of pixels in raster order; those at the right and at the bottom may be cut off by the sensor's edge.
+/// Blocks of pixels in raster order; those at the right and at the bottom may be cut off by the sensor's
+/// edge.
 struct BlockGrid {
   SensorSize block;  ///< pixels
   uint32_t columns = 0;
@@ -20,9 +21,9 @@ struct BlockGrid {
   uint32_t block_of(const Event& e) const { return e.y / block.height * columns + e.x / block.width; }
 };
 
-/// Counting sort by one digit of the block's number, or by two if there are many blocks: a table has one entry
-/// for each digit and chunk of events. Its prefix sum, over digits first and chunks second, says where each
-/// chunk writes; no place depends on who came first.
+/// Counting sort by one digit of the block's number, or by two if there are many blocks: a table has one
+/// entry for each digit and chunk of events. Its prefix sum, over digits first and chunks second, says where
+/// each chunk writes; no place depends on who came first.
 class BlockSort {
  public:
   /// What depends on the log's memory. Made anew when the log grows.
@@ -36,7 +37,8 @@ class BlockSort {
   };
 
   void build(PipelineBuilder& builder, const BlockGrid& grid, uint64_t most_events);
-  void bind(PipelineBuilder& builder, Memory& target, const EventLog& log, const EventLogMemory& memory) const;
+  void bind(PipelineBuilder& builder, Memory& target, const EventLog& log,
+            const EventLogMemory& memory) const;
 
   /// Which buffer of the log holds the sorted events.
   EventLog::From sorted() const { return passes_ == 1 ? EventLog::From::scratch : EventLog::From::events; }

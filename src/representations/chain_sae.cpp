@@ -1,6 +1,6 @@
-// CHAIN-SAE on a device. Events only stamp their pixels with their place in the stream; a query ranks the pixels by
-// their stamps. Stamps are distinct, so they are ranked by counting: a set with one bit per stamp, a prefix sum over
-// the bits of its words, and what is left within a word.
+// CHAIN-SAE on a device. Events only stamp their pixels with their place in the stream; a query ranks the
+// pixels by their stamps. Stamps are distinct, so they are ranked by counting: a set with one bit per stamp,
+// a prefix sum over the bits of its words, and what is left within a word.
 #include <algorithm>
 
 #include "core/little_endian.h"
@@ -27,8 +27,9 @@ struct ChainBinding : EventBinding {
   BoundKernel stamp;
 };
 
-// How many stamps there are before pixels are renumbered. Renumbering costs about one query; with this many it is a
-// small part of the work for the events in between, and the set of stamps stays smaller than the pixels.
+// How many stamps there are before pixels are renumbered. Renumbering costs about one query; with this many
+// it is a small part of the work for the events in between, and the set of stamps stays smaller than the
+// pixels.
 uint64_t stamps_for(uint64_t pixels, uint64_t submission_events) {
   return 1 + pixels + 8 * std::max(pixels, submission_events);
 }
@@ -39,8 +40,8 @@ class ChainSaePipeline final : public ImagePipeline {
                              const GpuOptions& options) {
     if (auto r = check_sensor(sensor); !r) return r.error();
     if (auto r = check_options(options); !r) return r.error();
-    std::unique_ptr<ChainSaePipeline> p(new ChainSaePipeline(
-        device, parameters, sensor, scarf::submission_events(options, device.limits())));
+    std::unique_ptr<ChainSaePipeline> p(
+        new ChainSaePipeline(device, parameters, sensor, scarf::submission_events(options, device.limits())));
     PipelineBuilder builder(device);
     p->build(builder, parameters.linear);
     if (!builder.result()) return builder.result().error();
@@ -87,7 +88,7 @@ class ChainSaePipeline final : public ImagePipeline {
   }
 
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes&) override {
+                   const StreamFacts&) override {
     layout::ChainStampPush events{};
     events.first_event = first;
     events.events = count;
@@ -101,21 +102,21 @@ class ChainSaePipeline final : public ImagePipeline {
     commands.mark("stamp");
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts&,
                                            std::optional<int64_t>) override {
     record_shown(commands);
     tone_.record_u8(commands, tone_shown_, pixels_);
     return image_answer<uint8_t>(tone_.picture(), sensor_);
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts&,
                                             std::optional<int64_t>) override {
     record_shown(commands);
     tone_.record_float(commands, tone_shown_, pixels_);
     return image_answer<float>(tone_.picture(), sensor_);
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamTimes&) override {
+  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamFacts&) override {
     record_shown(commands);
     return Answer<Image<int64_t>>{
         {{&shown(), pixels_ * kWord}}, [sensor = sensor_, pixels = pixels_](HostParts parts) {
@@ -127,7 +128,7 @@ class ChainSaePipeline final : public ImagePipeline {
         }};
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands& commands, const StreamTimes&) override {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands& commands, const StreamFacts&) override {
     record_ranks(commands);
     Answer<std::vector<uint8_t>> answer;
     answer.parts.push_back({&ranks_, pixels_ * kWord});

@@ -21,7 +21,8 @@ using vulkan::Kernel;
 
 // The device holds times relative to the stream's first event; all are less than 2^48 away from it.
 constexpr int64_t kNeverOnDevice = INT64_MIN;
-constexpr int64_t kFarAway = int64_t{1} << 60;  // the same as any later or earlier time, and overflows nothing
+constexpr int64_t kFarAway = int64_t{1}
+                             << 60;  // the same as any later or earlier time, and overflows nothing
 
 int64_t relative(int64_t t, int64_t t_first) {
   if (t > 0 && t_first < 0 && t > INT64_MAX + t_first) return kFarAway;
@@ -77,42 +78,44 @@ class LastTimePipeline final : public ImagePipeline {
     commands.mark("reset");
   }
 
+  Result<void> prepare_push(uint32_t count) override { return last_event_.make_room(count); }
+
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes& times) override {
+                   const StreamFacts& facts) override {
     const auto& bound = static_cast<const LastTimeBinding&>(binding);
     layout::SurfacePush push = last_event_.record(commands, bound.last_event, first, count);
-    push.t_first_low = low_word(times.first.value_or(0));
-    push.t_first_high = high_word(times.first.value_or(0));
+    push.t_first_low = low_word(facts.first.value_or(0));
+    push.t_first_high = high_word(facts.first.value_or(0));
     commands.dispatch(bound.last_time, count, layout::kLinearGroup, push);
     commands.barrier();
     commands.mark("last_time");
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes& times,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts& facts,
                                            std::optional<int64_t> now) override {
-    record_age(commands, times, now);
+    record_age(commands, facts, now);
     tone_.record_u8(commands, tone_ages_, pixels());
     return image_answer<uint8_t>(tone_.picture(), sensor_);
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes& times,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts& facts,
                                             std::optional<int64_t> now) override {
-    record_age(commands, times, now);
+    record_age(commands, facts, now);
     tone_.record_float(commands, tone_ages_, pixels());
     return image_answer<float>(tone_.picture(), sensor_);
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands&, const StreamTimes& times) override {
-    return last_times<Image<int64_t>>(times, [s = sensor_, n = planes_](std::vector<int64_t> last) {
+  Result<Answer<Image<int64_t>>> record_raw(Commands&, const StreamFacts& facts) override {
+    return last_times<Image<int64_t>>(facts, [s = sensor_, n = planes_](std::vector<int64_t> last) {
       Image<int64_t> raw(s.width, s.height, static_cast<int32_t>(n));
       raw.pixels = std::move(last);
       return raw;
     });
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamTimes& times) override {
-    const int64_t newest = times.newest.value_or(kNeverFired);
-    return last_times<std::vector<uint8_t>>(times, [newest](const std::vector<int64_t>& last) {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamFacts& facts) override {
+    const int64_t newest = facts.newest.value_or(kNeverFired);
+    return last_times<std::vector<uint8_t>>(facts, [newest](const std::vector<int64_t>& last) {
       std::vector<uint8_t> bytes;
       append_little_endian(bytes, newest);
       for (const int64_t t : last) append_little_endian(bytes, t);
@@ -145,9 +148,9 @@ class LastTimePipeline final : public ImagePipeline {
     tone_.bind(b, tone_ages_, ages_);
   }
 
-  void record_age(Commands& commands, const StreamTimes& times, std::optional<int64_t> now) const {
-    const int64_t t_first = times.first.value_or(0);
-    const int64_t shown = relative(now.value_or(times.newest.value_or(t_first)), t_first);
+  void record_age(Commands& commands, const StreamFacts& facts, std::optional<int64_t> now) const {
+    const int64_t t_first = facts.first.value_or(0);
+    const int64_t shown = relative(now.value_or(facts.newest.value_or(t_first)), t_first);
     const layout::SaeAgePush push = {pixels(), planes_, low_word(shown), high_word(shown),
                                      step_,    reach_,  last_entry_};
     commands.dispatch(bound_age_, pixels(), layout::kLinearGroup, push);
@@ -157,10 +160,10 @@ class LastTimePipeline final : public ImagePipeline {
 
   // An answer made from the last times.
   template <class T, class Function>
-  Answer<T> last_times(const StreamTimes& times, Function function) const {
+  Answer<T> last_times(const StreamFacts& facts, Function function) const {
     const uint64_t count = uint64_t{planes_} * pixels();
     return {{{&times_, count * sizeof(int64_t)}},
-            [count, t_first = times.first.value_or(0), function](HostParts parts) -> Result<T> {
+            [count, t_first = facts.first.value_or(0), function](HostParts parts) -> Result<T> {
               const auto* relative_times = static_cast<const int64_t*>(parts[0]);
               std::vector<int64_t> last(relative_times, relative_times + count);
               for (int64_t& t : last) t = t == kNeverOnDevice ? kNeverFired : t + t_first;

@@ -8,38 +8,40 @@ namespace {
 
 class DeviceRepresentation final : public OnDevice<GpuRepresentation> {
  public:
-  DeviceRepresentation(std::shared_ptr<Stream> stream, ImagePipeline& pipeline, bool queries_change_state)
-      : OnDevice(std::move(stream)), pipeline_(pipeline), queries_change_state_(queries_change_state) {}
+  DeviceRepresentation(Feed feed, ImagePipeline& pipeline, bool queries_change_state)
+      : OnDevice(std::move(feed)),
+        pipeline_(filtered_ != nullptr ? *filtered_ : pipeline),
+        queries_change_state_(queries_change_state) {}
 
   SensorSize sensor() const override { return pipeline_.sensor(); }
 
   Pending<Image<uint8_t>> u8_image(std::optional<int64_t> now) override {
     return stream_->query<Image<uint8_t>>(
         QueryKind::image,
-        [&](Query& q, const StreamTimes& times) { return pipeline_.record_u8(q.commands, times, now); },
+        [&](Query& q, const StreamFacts& facts) { return pipeline_.record_u8(q.commands, facts, now); },
         queries_change_state_);
   }
   Pending<Image<float>> float_image(std::optional<int64_t> now) override {
     return stream_->query<Image<float>>(
         QueryKind::image,
-        [&](Query& q, const StreamTimes& times) { return pipeline_.record_float(q.commands, times, now); },
+        [&](Query& q, const StreamFacts& facts) { return pipeline_.record_float(q.commands, facts, now); },
         queries_change_state_);
   }
   Pending<Image<int64_t>> raw_image() override {
     return stream_->query<Image<int64_t>>(
         QueryKind::state,
-        [&](Query& q, const StreamTimes& times) { return pipeline_.record_raw(q.commands, times); },
+        [&](Query& q, const StreamFacts& facts) { return pipeline_.record_raw(q.commands, facts); },
         queries_change_state_);
   }
   Pending<std::vector<Event>> events() override {
-    return stream_->query<std::vector<Event>>(
-        QueryKind::events,
-        [&](Query& q, const StreamTimes& times) { return pipeline_.record_events(q.commands, times); });
+    return stream_->query<std::vector<Event>>(QueryKind::events, [&](Query& q, const StreamFacts& facts) {
+      return pipeline_.record_events(q.commands, facts);
+    });
   }
   Pending<std::vector<uint8_t>> state() override {
-    return stream_->query<std::vector<uint8_t>>(
-        QueryKind::state,
-        [&](Query& q, const StreamTimes& times) { return pipeline_.record_state(q.commands, times); });
+    return stream_->query<std::vector<uint8_t>>(QueryKind::state, [&](Query& q, const StreamFacts& facts) {
+      return pipeline_.record_state(q.commands, facts);
+    });
   }
 
  private:
@@ -70,34 +72,40 @@ struct Maker {
   MadePipeline operator()(const AaeParameters& p) const { return make_aae(device, p, sensor, options); }
 };
 
-bool queries_change_state(const Parameters& parameters) {
-  if (const auto* aae = std::get_if<AaeParameters>(&parameters)) return !aae->keep;
-  const auto* chain = std::get_if<ChainSaeParameters>(&parameters);
-  return chain != nullptr && chain->rule == ChainSaeParameters::Rule::event_driven;
+// Whether pictures depend on the time of the newest event.
+bool asks_for_newest(const Parameters& parameters) {
+  return std::holds_alternative<TimeWindowParameters>(parameters) ||
+         std::holds_alternative<SaeParameters>(parameters);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(std::shared_ptr<GpuContext> context,
-                                                                   const Parameters& parameters,
-                                                                   SensorSize sensor,
-                                                                   const GpuOptions& options) {
+Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(
+    std::shared_ptr<GpuContext> context, const Parameters& parameters, SensorSize sensor,
+    const GpuOptions& options, std::span<const FilterParameters> filters) {
   const auto checked = checked_parameters(parameters);
   if (!checked) return checked.error();
+  if (const auto* window = std::get_if<TimeWindowParameters>(&*checked);
+      window != nullptr && window->counts && !filters.empty()) {
+    return Error{ErrorCode::illegal_parameter,
+                 "time_window with counts cannot stand behind filters on a device; filter the events with "
+                 "make_reference_filter before the push, or leave out counts"};
+  }
   if (const auto* p = std::get_if<ScarfParameters>(&*checked)) {
     const auto geometry = make_geometry(p->preset, sensor, p->grid);
     if (!geometry) return geometry.error();
-    auto scarf = make_gpu_scarf(std::move(context), *geometry, p->accumulation, options);
+    auto scarf = make_gpu_scarf(std::move(context), *geometry, p->accumulation, options, filters);
     if (!scarf) return scarf.error();
     return std::unique_ptr<GpuRepresentation>(std::move(*scarf));
   }
   auto pipeline = std::visit(Maker{context->vulkan(), sensor, options}, *checked);
   if (!pipeline) return pipeline.error();
   ImagePipeline& images = **pipeline;
-  auto stream = Stream::create(std::move(context), std::move(*pipeline), options);
-  if (!stream) return stream.error();
+  auto feed = Feed::create(std::move(context), std::move(*pipeline), &images, asks_for_newest(*checked),
+                           options, filters);
+  if (!feed) return feed.error();
   return std::unique_ptr<GpuRepresentation>(
-      std::make_unique<DeviceRepresentation>(std::move(*stream), images, queries_change_state(*checked)));
+      std::make_unique<DeviceRepresentation>(std::move(*feed), images, query_changes_state(*checked)));
 }
 
 }  // namespace scarf

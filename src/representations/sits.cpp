@@ -115,7 +115,7 @@ class SitsPipeline final : public ImagePipeline {
   }
 
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes&) override {
+                   const StreamFacts&) override {
     const auto& kernels = static_cast<const SitsBinding&>(binding);
     layout::SitsPush push = push_;
     push.first_event = first;
@@ -124,23 +124,23 @@ class SitsPipeline final : public ImagePipeline {
     record_walk(commands, kernels, push);
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts&,
                                            std::optional<int64_t>) override {
     tone_.record_u8(commands, toned_values_, numbers());
     return cropped<uint8_t, uint8_t>(tone_.picture());
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes&,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts&,
                                             std::optional<int64_t>) override {
     tone_.record_float(commands, toned_values_, numbers());
     return cropped<float, float>(tone_.picture());
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands&, const StreamTimes&) override {
+  Result<Answer<Image<int64_t>>> record_raw(Commands&, const StreamFacts&) override {
     return cropped<int64_t, int32_t>(values_);
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamTimes&) override {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamFacts&) override {
     const Answer<Image<int32_t>> values = cropped<int32_t, int32_t>(values_);
     const auto read = [values = values.read](HostParts parts) -> Result<std::vector<uint8_t>> {
       const auto image = values(parts);

@@ -50,8 +50,8 @@ class TimeWindowCounts final : public ImagePipeline, private EventLogOwner {
     if (auto r = check_options(options); !r) return r.error();
     const auto levels = make_levels(parameters.accumulation, kTableEnd);
     if (!levels) return levels.error();
-    std::unique_ptr<TimeWindowCounts> p(new TimeWindowCounts(
-        device, parameters, sensor, scarf::submission_events(options, device.limits())));
+    std::unique_ptr<TimeWindowCounts> p(
+        new TimeWindowCounts(device, parameters, sensor, scarf::submission_events(options, device.limits())));
     if (auto r = p->build(*levels); !r) return r.error();
     return std::unique_ptr<ImagePipeline>(std::move(p));
   }
@@ -76,26 +76,26 @@ class TimeWindowCounts final : public ImagePipeline, private EventLogOwner {
   Result<void> prepare_push(uint32_t count) override { return log_->prepare(count); }
 
   void record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes&) override {
+                   const StreamFacts&) override {
     log_->record_append(commands, *static_cast<TimeWindowBinding&>(binding).input, first, count);
   }
 
-  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamTimes& times,
+  Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts& facts,
                                            std::optional<int64_t> now) override {
-    record_count(commands, times, now);
+    record_count(commands, facts, now);
     tone_.record_u8(commands, tone_counts_, pixels());
     return picture<uint8_t>([c = accumulation_](int64_t count) { return level_u8(c, count); });
   }
 
-  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamTimes& times,
+  Result<Answer<Image<float>>> record_float(Commands& commands, const StreamFacts& facts,
                                             std::optional<int64_t> now) override {
-    record_count(commands, times, now);
+    record_count(commands, facts, now);
     tone_.record_float(commands, tone_counts_, pixels());
     return picture<float>([c = accumulation_](int64_t count) { return level_float(c, count); });
   }
 
-  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamTimes& times) override {
-    record_count(commands, times, {});
+  Result<Answer<Image<int64_t>>> record_raw(Commands& commands, const StreamFacts& facts) override {
+    record_count(commands, facts, {});
     return Answer<Image<int64_t>>{{counts_part()}, [s = sensor_](HostParts parts) -> Result<Image<int64_t>> {
                                     Image<int64_t> raw(s.width, s.height);
                                     const auto* counts = static_cast<const uint32_t*>(parts[0]);
@@ -104,13 +104,13 @@ class TimeWindowCounts final : public ImagePipeline, private EventLogOwner {
                                   }};
   }
 
-  Result<Answer<std::vector<Event>>> record_events(Commands&, const StreamTimes& times) override {
-    return listed<std::vector<Event>>(times, [](std::vector<Event> events) { return events; });
+  Result<Answer<std::vector<Event>>> record_events(Commands&, const StreamFacts& facts) override {
+    return listed<std::vector<Event>>(facts, [](std::vector<Event> events) { return events; });
   }
 
-  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamTimes& times) override {
-    const int64_t t_max = times.largest.value_or(kNeverFired);
-    return listed<std::vector<uint8_t>>(times, [t_max](const std::vector<Event>& events) {
+  Result<Answer<std::vector<uint8_t>>> record_state(Commands&, const StreamFacts& facts) override {
+    const int64_t t_max = facts.largest.value_or(kNeverFired);
+    return listed<std::vector<uint8_t>>(facts, [t_max](const std::vector<Event>& events) {
       std::vector<uint8_t> bytes;
       append_little_endian(bytes, t_max);
       append_list(bytes, events);
@@ -172,8 +172,8 @@ class TimeWindowCounts final : public ImagePipeline, private EventLogOwner {
     });
   }
 
-  void record_count(Commands& commands, const StreamTimes& times, std::optional<int64_t> now) {
-    const int64_t t_max = times.largest.value_or(INT64_MIN);
+  void record_count(Commands& commands, const StreamFacts& facts, std::optional<int64_t> now) {
+    const int64_t t_max = facts.largest.value_or(INT64_MIN);
     const int64_t since = window_begin(std::max(t_max, now.value_or(t_max)), window_);
     const layout::TimeWindowPush push = {log_->bound(), static_cast<uint32_t>(sensor_.width), low_word(since),
                                          high_word(since)};
@@ -204,8 +204,8 @@ class TimeWindowCounts final : public ImagePipeline, private EventLogOwner {
 
   // An answer made from the listed events.
   template <class T, class Function>
-  Answer<T> listed(const StreamTimes& times, Function function) {
-    const int64_t since = window_begin(times.largest.value_or(INT64_MIN), window_);
+  Answer<T> listed(const StreamFacts& facts, Function function) {
+    const int64_t since = window_begin(facts.largest.value_or(INT64_MIN), window_);
     return {{{&log_->events(), uint64_t{log_->bound()} * sizeof(Event)}, {&log_->length(), sizeof(uint32_t)}},
             [since, function, known = log_->length_reader()](HostParts parts) -> Result<T> {
               known(parts[1]);

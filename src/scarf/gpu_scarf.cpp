@@ -27,8 +27,8 @@ Snapshot unpack_state(const Geometry& g, int64_t t_first, const uint64_t* totals
 
 class DeviceScarf final : public OnDevice<GpuScarf> {
  public:
-  DeviceScarf(std::shared_ptr<Stream> stream, ScarfPipeline& pipeline, const Geometry& geometry)
-      : OnDevice(std::move(stream)), pipeline_(pipeline), geometry_(geometry) {}
+  DeviceScarf(Feed feed, ScarfPipeline& pipeline, const Geometry& geometry)
+      : OnDevice(std::move(feed)), pipeline_(pipeline), geometry_(geometry) {}
 
   const Geometry& geometry() const override { return geometry_; }
 
@@ -53,8 +53,8 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
 
   Pending<Snapshot> snapshot() override {
     return stream_->query<Snapshot>(
-        QueryKind::state, [&](Query&, const StreamTimes& times) -> Result<Answer<Snapshot>> {
-          const int64_t t_first = times.first.value_or(0);
+        QueryKind::state, [&](Query&, const StreamFacts& facts) -> Result<Answer<Snapshot>> {
+          const int64_t t_first = facts.first.value_or(0);
           const auto read = [g = geometry_, t_first](HostParts parts) -> Result<Snapshot> {
             return unpack_state(g, t_first, static_cast<const uint64_t*>(parts[0]),
                                 static_cast<const uint64_t*>(parts[1]));
@@ -70,7 +70,7 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
   Pending<Image<T>> image(PolarityMode mode,
                           const vulkan::Buffer& (ScarfPipeline::*record)(vulkan::Commands&, PolarityMode)
                               const) {
-    const auto recorded = [&](Query& q, const StreamTimes&) -> Result<Answer<Image<T>>> {
+    const auto recorded = [&](Query& q, const StreamFacts&) -> Result<Answer<Image<T>>> {
       const vulkan::Buffer& pixels = (pipeline_.*record)(q.commands, mode);
       return image_answer<T>(pixels, sensor(), mode == PolarityMode::separate ? 2 : 1);
     };
@@ -79,7 +79,7 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
 
   Pending<std::vector<Event>> extract(int64_t first, int64_t count, bool active_only, EventOrder order) {
     using Events = std::vector<Event>;
-    const auto record = [&](Query& q, const StreamTimes& times) -> Result<Answer<Events>> {
+    const auto record = [&](Query& q, const StreamFacts& facts) -> Result<Answer<Events>> {
       if (!q.target) {
         auto target = pipeline_.make_extract_target();
         if (!target) return target.error();
@@ -87,7 +87,7 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
       }
       const auto& target = static_cast<const ExtractTarget&>(*q.target);
       pipeline_.record_extract(q.commands, target, static_cast<uint32_t>(first), static_cast<uint32_t>(count),
-                               active_only, times.first.value_or(0));
+                               active_only, facts.first.value_or(0));
       const uint64_t half = pipeline_.half_events();
       return Answer<Events>{{}, [&target, half, order](HostParts) -> Result<Events> {
                               const uint64_t total = *target.total.mapped_as<uint32_t>();
@@ -110,7 +110,8 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
 
 Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
                                                  const Geometry& geometry, double accumulation,
-                                                 const GpuOptions& options) {
+                                                 const GpuOptions& options,
+                                                 std::span<const FilterParameters> filters) {
   const auto checked = checked_geometry(geometry);
   if (!checked) return checked.error();
   const auto levels = make_levels(accumulation, geometry.capacity);
@@ -121,9 +122,10 @@ Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> con
   auto pipeline = ScarfPipeline::create(device, *checked, *levels, *plan);
   if (!pipeline) return pipeline.error();
   ScarfPipeline& scarf = **pipeline;
-  auto stream = Stream::create(std::move(context), std::move(*pipeline), options);
-  if (!stream) return stream.error();
-  return std::unique_ptr<GpuScarf>(std::make_unique<DeviceScarf>(std::move(*stream), scarf, *checked));
+  auto feed = Feed::create(std::move(context), std::move(*pipeline), /*images=*/nullptr,
+                           /*asks_for_newest=*/false, options, filters);
+  if (!feed) return feed.error();
+  return std::unique_ptr<GpuScarf>(std::make_unique<DeviceScarf>(std::move(*feed), scarf, *checked));
 }
 
 }  // namespace scarf

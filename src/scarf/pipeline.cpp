@@ -170,9 +170,9 @@ void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels,
 }
 
 void ScarfPipeline::record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                                const StreamTimes& times) {
+                                const StreamFacts& facts) {
   const auto& kernels = static_cast<const PushKernels&>(binding);
-  const layout::BatchPush push = batch_push(first, count, times.first.value_or(0));
+  const layout::BatchPush push = batch_push(first, count, facts.first.value_or(0));
   record_count(commands, kernels, push);
   record_scan(commands, push);
   record_prune(commands, push);

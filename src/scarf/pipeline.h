@@ -42,7 +42,7 @@ class ScarfPipeline : public Pipeline {
   void record_reset(vulkan::Commands& commands) override;
   /// count, integrate and prune (where they pay), scan, place.
   void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
-                   const StreamTimes& times) override;
+                   const StreamFacts& facts) override;
   uint64_t memory_bytes() const override { return bytes_; }
 
   Result<std::unique_ptr<ExtractTarget>> make_extract_target() const;

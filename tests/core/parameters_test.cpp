@@ -168,10 +168,16 @@ TEST(Words, TimesWithUnits) {
   EXPECT_EQ(window("250us"), 250);
   EXPECT_EQ(window("33ms"), 33'000);
   EXPECT_EQ(window("1.5ms"), 1'500);
+  EXPECT_EQ(window("0.000001s"), 1);
+  EXPECT_EQ(window(".25ms"), 250);
+  EXPECT_EQ(window("7.000"), 7);
+  EXPECT_EQ(window("99.9999990s"), 99'999'999);
   EXPECT_EQ(window("100s"), 100'000'000);
-  for (const char* word :
-       {"", "ms", "-5ms", "5 ms", "0.5us", "5m", "5minutes", "0x10", "1e400", "nan", "5ms5"}) {
-    EXPECT_THAT(refusal("time_window", {{"window", word}}), HasSubstr("window")) << word;
+  for (const std::string word :
+       {"", "ms", ".", ".s", "-5ms", "+5ms", "5 ms", "0.5us", "1.0000001s", "1.5.5s", "5m", "5minutes",
+        "5ms5", "5us ", "0x10", "1e400", "nan", "9223372036855s"}) {
+    EXPECT_EQ(refusal("time_window", {{"window", word}}),
+              "time_window: window is '" + word + "', legal is 1us to 100s");
   }
 }
 
@@ -196,6 +202,30 @@ TEST(Words, WhatIsRefusedAndHow) {
   EXPECT_THAT(refusal("sae", {{"decay", "0.3"}}), AllOf(HasSubstr("exponential"), HasSubstr("linear")));
   EXPECT_THAT(refusal("aae", {{"keep", "maybe"}}), AllOf(HasSubstr("keep"), HasSubstr("true")));
   EXPECT_THAT(refusal("scarf", {{"preset", "papers"}}), AllOf(HasSubstr("papers"), HasSubstr("paper")));
+  EXPECT_THAT(refusal("scarf", {{"ratio", ""}}), HasSubstr("ratio is ''"));
+  EXPECT_THAT(refusal("aed_sae", {{"lambda", "1 "}}), HasSubstr("lambda is '1 '"));
+}
+
+TEST(Words, OneFormOfMessages) {
+  EXPECT_EQ(refusal("eross", {}),
+            "representation 'eross' is unknown; use one of scarf, time_window, sae, eros, tos, sits, "
+            "chain_sae, aed_sae, aae");
+  EXPECT_EQ(refusal("eros", {{"lambda", "1"}}),
+            "eros: parameter 'lambda' is unknown; use one of kernel, decay");
+  EXPECT_EQ(refusal("sits", {{"kernel", "64"}}),
+            "sits: kernel is 64, legal is odd, 3 to 63 (an even number is raised by 1)");
+  EXPECT_EQ(refusal("sits", {{"rule", "less"}}),
+            "sits: rule is 'less', legal is paper, greater, event_driven");
+  EXPECT_EQ(refusal("aae", {{"keep", "1"}}), "aae: keep is '1', legal is false, true");
+  EXPECT_EQ(refusal("scarf", {{"cell", "129"}}), "scarf: cell is 129, legal is 1 to 128");
+  const auto rule = checked_parameters(SitsParameters{.rule = static_cast<SitsParameters::Rule>(3)});
+  ASSERT_FALSE(rule);
+  EXPECT_EQ(rule.error().message, "sits: rule is 3, legal is paper, greater, event_driven");
+}
+
+TEST(Words, WhatIsLegalDependsOnAllOfThem) {
+  // A decay of 50 is too much for the default kernel.
+  EXPECT_EQ(parsed<TosParameters>("tos", {{"decay", "50"}, {"kernel", "3"}}).decay, 50);
 }
 
 TEST(Ranges, Kernels) {

@@ -372,15 +372,15 @@ TEST(Encodings, IllegalInput) {
     EXPECT_FALSE(image.ok());
     return image.ok() ? Error{} : image.error();
   };
-  EXPECT_EQ(error(VoxelGridParameters{0}).message, "encoding voxel_grid: bins is 0, legal is 1 to 256");
+  EXPECT_EQ(error(VoxelGridParameters{0}).message, "voxel_grid: bins is 0, legal is 1 to 256");
   EXPECT_EQ(error(VoxelGridParameters{257}).code, ErrorCode::illegal_parameter);
   EXPECT_EQ(error(VoxelGridParameters{5, static_cast<VoxelGridParameters::Convention>(2)}).message,
-            "encoding voxel_grid: convention is 2, legal is e2vid or eventgan");
-  EXPECT_EQ(error(ToreParameters{65}).message, "encoding tore: k is 65, legal is 1 to 64");
-  EXPECT_THAT(error(TimeSurfaceParameters{0}).message, HasSubstr("tau is 0, legal is 1us to 1000s"));
-  EXPECT_EQ(error(HatsParameters{0}).message, "encoding hats: cell is 0, legal is 1 to 16384");
-  EXPECT_EQ(error(HatsParameters{1, 17}).message, "encoding hats: radius is 17, legal is 0 to 16");
-  EXPECT_EQ(error(HotsParameters{1, -1}).message, "encoding hots: radius is -1, legal is 0 to 16");
+            "voxel_grid: convention is 2, legal is e2vid, eventgan");
+  EXPECT_EQ(error(ToreParameters{65}).message, "tore: k is 65, legal is 1 to 64");
+  EXPECT_THAT(error(TimeSurfaceParameters{0}).message, HasSubstr("tau is 0s, legal is 1us to 1000s"));
+  EXPECT_EQ(error(HatsParameters{0}).message, "hats: cell is 0, legal is 1 to 16384");
+  EXPECT_EQ(error(HatsParameters{1, 17}).message, "hats: radius is 17, legal is 0 to 16");
+  EXPECT_EQ(error(HotsParameters{1, -1}).message, "hots: radius is -1, legal is 0 to 16");
   EXPECT_EQ(error(ToreParameters{}, {0, 1}).message, "sensor is 0x1, legal is 1 to 16384 pixels per axis");
   const Error polarity = error(ToreParameters{}, kSensor, {event(0, 1), event(3, 2, 1, 2)});
   EXPECT_EQ(polarity.code, ErrorCode::refused_batch);
@@ -414,12 +414,11 @@ TEST(ParseEncoding, ErrorsNameWhatIsLegal) {
   EXPECT_EQ(
       message("voxel"),
       "encoding 'voxel' is unknown; use one of voxel_grid, tore, event_image, time_surface, hats, hots");
-  EXPECT_EQ(message("voxel_grid:bins=many"), "encoding voxel_grid: bins is 'many', legal is 1 to 256");
+  EXPECT_EQ(message("voxel_grid:bins=many"), "voxel_grid: bins is 'many', legal is 1 to 256");
   EXPECT_EQ(message("voxel_grid:convention=E2VID"),
-            "encoding voxel_grid: convention is 'E2VID', legal is e2vid or eventgan");
-  EXPECT_EQ(message("event_image:bins=1"),
-            "encoding event_image: parameter 'bins' is unknown; there is none");
-  EXPECT_EQ(message("tore:bins=1"), "encoding tore: parameter 'bins' is unknown; use one of k");
+            "voxel_grid: convention is 'E2VID', legal is e2vid, eventgan");
+  EXPECT_EQ(message("event_image:bins=1"), "event_image: parameter 'bins' is unknown; there is none");
+  EXPECT_EQ(message("tore:bins=1"), "tore: parameter 'bins' is unknown; use one of k");
   EXPECT_THAT(message("hots:tau=1m"), HasSubstr("tau is '1m', legal is 1us to 1000s"));
 }
 
@@ -439,7 +438,7 @@ TEST(EncodingInfos, DefaultsParse) {
     EXPECT_EQ(info.cpu_only, info.name == "hats" || info.name == "hots");
   }
   EXPECT_EQ(encodings()[0].parameters[1].value, "e2vid");
-  EXPECT_EQ(encodings()[0].parameters[1].range, "e2vid or eventgan");
+  EXPECT_EQ(encodings()[0].parameters[1].range, "e2vid, eventgan");
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
-// AAE on the device: blocks may differ from the reference only where a test came so near to its threshold that
-// rounding decides. Such blocks are not met here, so everything is expected to be the same; the reference's walk
-// says if that was luck.
+// AAE on the device: blocks may differ from the reference only where a test came so near to its threshold
+// that rounding decides. The reference's walk says where that is; the streams here never come there.
+#include "cpu_ref/aae.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <random>
 
-#include "cpu_ref/aae.h"
 #include "tests/support/context.h"
 #include "tests/support/representations.h"
 #include "tests/support/streams.h"
@@ -25,7 +27,23 @@ class Aae : public test::DeviceTest {
     ASSERT_TRUE(device_ && reference_);
   }
   void push(std::span<const Event> events) { ASSERT_TRUE(device_->push(events) && reference_->push(events)); }
-  void compare() { ASSERT_NO_FATAL_FAILURE(test::expect_same_outputs(*device_, *reference_)); }
+  void compare() {
+    ASSERT_FALSE(may_differ());
+    ASSERT_NO_FATAL_FAILURE(test::expect_same_outputs(*device_, *reference_));
+  }
+
+  // Whether rounding may decide where the next walk through some block ends.
+  bool may_differ() {
+    const SensorSize sensor = reference_->sensor();
+    const int32_t width = parameters_.esvo2 ? (sensor.width + 7) / 8 : parameters_.block;
+    const int32_t height = parameters_.esvo2 ? (sensor.height + 5) / 6 : parameters_.block;
+    std::map<std::pair<int32_t, int32_t>, std::vector<Event>> queues;
+    for (const Event& e : test::value_of(reference_->events()))
+      queues[{e.y / height, e.x / width}].push_back(e);
+    return std::any_of(queues.begin(), queues.end(), [this](const auto& queue) {
+      return (parameters_.esvo2 ? walk_block_esvo2(queue.second) : walk_block(queue.second)).close;
+    });
+  }
 
   AaeParameters parameters_;
   std::unique_ptr<GpuRepresentation> device_;
@@ -42,10 +60,12 @@ const AaeParameters kVariants[] = {{},
                                    {.esvo2 = true},
                                    {.keep = true, .esvo2 = true}};
 
-TEST_F(Aae, EverySpreadAndVariant) {
+TEST_F(Aae, SpreadsAndVariants) {
   std::mt19937 random(1);
+  size_t next_spread = 0;
   for (const AaeParameters& parameters : kVariants) {
-    for (const Spread spread : test::kSpreads) {
+    for (int trial = 0; trial < 4; ++trial) {
+      const Spread spread = test::kSpreads[next_spread++ % std::size(test::kSpreads)];
       SCOPED_TRACE(static_cast<int>(spread));
       GpuOptions options;
       options.submission_events = random() % 2 == 0 ? 0 : 1 + static_cast<uint32_t>(random() % 700);
@@ -65,7 +85,7 @@ TEST_F(Aae, EverySpreadAndVariant) {
 TEST_F(Aae, TinyAndOddSensors) {
   std::mt19937 random(2);
   for (const AaeParameters& parameters : kVariants) {
-    for (const SensorSize sensor : {SensorSize{1, 1}, SensorSize{3, 1}, SensorSize{9, 7}, SensorSize{31, 16}}) {
+    for (const SensorSize sensor : {SensorSize{1, 1}, SensorSize{9, 7}}) {
       make(parameters, sensor);
       for (size_t size : {0, 1, 2, 11, 300}) {
         ASSERT_NO_FATAL_FAILURE(push(make_stream(Spread::beyond, sensor, size, random())));
@@ -89,8 +109,8 @@ TEST_F(Aae, ManyBlocks) {
   }
 }
 
-// Equal times: the mean distance is 0, so the walk goes to the end of the queue. Longer queues than one dispatch
-// walks, longer than the log has room for, and longer than a queue may be.
+// Equal times: the mean distance is 0, so the walk goes to the end of the queue. Longer queues than one
+// dispatch walks, longer than the log has room for, and longer than a queue may be.
 TEST_F(Aae, LongWalksThroughFullQueues) {
   const SensorSize sensor = {20, 16};
   for (const AaeParameters& parameters :

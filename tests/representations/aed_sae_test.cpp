@@ -1,5 +1,5 @@
-// AED-SAE on the device. Its list and last times are the reference's; its picture may differ by one 8-bit level in
-// one pixel of a thousand.
+// AED-SAE on the device. Its list and last times are the reference's; its picture may differ by one 8-bit
+// level in one pixel of a thousand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,8 @@ class AedSae : public test::DeviceTest {
 
 TEST_F(AedSae, EverySpread) {
   std::mt19937 random(1);
-  const AedSaeParameters variants[] = {{}, {.window = 1'000, .lambda = 2.5}, {.window = 100'000'000, .lambda = 1e-3}};
+  const AedSaeParameters variants[] = {
+      {}, {.window = 1'000, .lambda = 2.5}, {.window = 100'000'000, .lambda = 1e-3}};
   int which = 0;
   for (const Spread spread : test::kSpreads) {
     SCOPED_TRACE(static_cast<int>(spread));
@@ -86,7 +87,8 @@ TEST_F(AedSae, TinyAndOddSensors) {
 }
 
 // The times of a stream with forward and backward jumps of all sizes.
-std::vector<Event> jumping(SensorSize sensor, size_t count, int64_t window, uint32_t one_in, std::mt19937& random) {
+std::vector<Event> jumping(SensorSize sensor, size_t count, int64_t window, uint32_t one_in,
+                           std::mt19937& random) {
   std::vector<Event> events = make_stream(Spread::uniform, sensor, count, random());
   int64_t t = 0;
   for (Event& e : events) {
@@ -141,7 +143,8 @@ TEST_F(AedSae, TimesAtTheLimits) {
     const int64_t step = first == INT64_MAX ? -1 : 1;
     std::vector<Event> events;
     for (int i = 0; i < 40; ++i) {
-      events.push_back({first + step * (i % 7) * 300, static_cast<uint16_t>(i % 5), static_cast<uint16_t>(i % 4), 1, {}});
+      events.push_back(
+          {first + step * (i % 7) * 300, static_cast<uint16_t>(i % 5), static_cast<uint16_t>(i % 4), 1, {}});
     }
     ASSERT_NO_FATAL_FAILURE(push(events));
     ASSERT_NO_FATAL_FAILURE(compare());

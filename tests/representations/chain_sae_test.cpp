@@ -89,12 +89,9 @@ TEST_P(ChainSae, HighDefinition) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, ChainSae,
-                         testing::Values(ChainSaeParameters::Rule::paper,
-                                         ChainSaeParameters::Rule::event_driven),
-                         [](const auto& rule) {
-                           return rule.param == ChainSaeParameters::Rule::paper ? "Paper" : "EventDriven";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Rules, ChainSae, testing::Values(ChainSaeParameters::Rule::paper, ChainSaeParameters::Rule::event_driven),
+    [](const auto& rule) { return rule.param == ChainSaeParameters::Rule::paper ? "Paper" : "EventDriven"; });
 
 }  // namespace
 }  // namespace scarf

@@ -43,8 +43,8 @@ class Encoders : public test::DeviceTest {
   }
 
   Buffer buffer_of(const void* content, size_t bytes, size_t room) {
-    Buffer buffer =
-        test::value_of(Buffer::create(context_->vulkan(), "test", std::max<size_t>(room, 16), MemoryUse::upload));
+    Buffer buffer = test::value_of(
+        Buffer::create(context_->vulkan(), "test", std::max<size_t>(room, 16), MemoryUse::upload));
     if (bytes > 0) std::memcpy(buffer.mapped(), content, bytes);
     return buffer;
   }
@@ -61,8 +61,8 @@ class Encoders : public test::DeviceTest {
     return {host.mapped_as<uint32_t>(), host.mapped_as<uint32_t>() + values};
   }
 
-  static void compare(const std::vector<uint32_t>& bits, const EncodingParameters& parameters, SensorSize sensor,
-                      std::span<const Event> events) {
+  static void compare(const std::vector<uint32_t>& bits, const EncodingParameters& parameters,
+                      SensorSize sensor, std::span<const Event> events) {
     const Image<float> expected = test::value_of(encode(parameters, sensor, events));
     ASSERT_EQ(bits.size(), expected.pixels.size());
     for (size_t i = 0; i < bits.size(); ++i) {
@@ -80,7 +80,8 @@ class Encoders : public test::DeviceTest {
     const size_t rest = events.size() - in_first;
     const auto total = static_cast<uint32_t>(events.size());
     const Buffer first = buffer_of(events.data(), in_first * sizeof(Event), half * sizeof(Event));
-    const Buffer second = buffer_of(events.data() + in_first, rest * sizeof(Event), (rest + 9) * sizeof(Event));
+    const Buffer second =
+        buffer_of(events.data() + in_first, rest * sizeof(Event), (rest + 9) * sizeof(Event));
     const Buffer count = buffer_of(&total, sizeof(total), sizeof(total));
     const DeviceEvents input = {&first, &second, &count, half, half + rest + 9, most_per_pixel};
     const auto encoder = Encoder::create(context_->vulkan(), parameters, sensor, input.most_events);
@@ -101,7 +102,8 @@ TEST_F(Encoders, EveryEncodingAndSpread) {
     for (Spread spread : test::kSpreads) {
       const SensorSize sensor = {31, 22};
       const auto begin = static_cast<int64_t>(random()) - 2'000'000'000;
-      ASSERT_NO_FATAL_FAILURE(compare(parameters, sensor, make_stream(spread, sensor, 3000, random(), begin)));
+      ASSERT_NO_FATAL_FAILURE(
+          compare(parameters, sensor, make_stream(spread, sensor, 3000, random(), begin)));
     }
   }
 }
@@ -111,15 +113,17 @@ TEST_F(Encoders, FewEventsAndTinySensors) {
   for (const EncodingParameters& parameters : kEncodings) {
     for (size_t count : {0, 1, 2, 5}) {
       for (const SensorSize sensor : {SensorSize{1, 1}, SensorSize{3, 2}}) {
-        ASSERT_NO_FATAL_FAILURE(compare(parameters, sensor, make_stream(Spread::uniform, sensor, count, random())));
-        ASSERT_NO_FATAL_FAILURE(compare(parameters, sensor, make_stream(Spread::beyond, sensor, count, random())));
+        ASSERT_NO_FATAL_FAILURE(
+            compare(parameters, sensor, make_stream(Spread::uniform, sensor, count, random())));
+        ASSERT_NO_FATAL_FAILURE(
+            compare(parameters, sensor, make_stream(Spread::beyond, sensor, count, random())));
       }
     }
   }
 }
 
-// Events in any order, long spans (whose unit of time is more than a microsecond), times that differ in their high or
-// their low words only, and equal times.
+// Events in any order, long spans (whose unit of time is more than a microsecond), times that differ in their
+// high or their low words only, and equal times.
 TEST_F(Encoders, TimesOfAllKinds) {
   std::mt19937_64 random(3);
   const SensorSize sensor = {6, 5};
@@ -127,7 +131,8 @@ TEST_F(Encoders, TimesOfAllKinds) {
     for (int bits : {0, 1, 8, 20, 31, 32, 33, 39, 40, 41, 48, 63, 64}) {
       auto events = make_stream(Spread::beyond, sensor, 700, random());
       for (Event& e : events) {
-        e.t = bits == 0 ? 5 : static_cast<int64_t>(random() >> (64 - bits) << (random() % 3 == 0 ? bits / 2 : 0));
+        e.t = bits == 0 ? 5
+                        : static_cast<int64_t>(random() >> (64 - bits) << (random() % 3 == 0 ? bits / 2 : 0));
       }
       ASSERT_NO_FATAL_FAILURE(compare(parameters, sensor, events)) << bits;
     }
@@ -144,8 +149,11 @@ TEST_F(Encoders, TheLongestSpanOfTimes) {
 // More events of one pixel than a driver's loops count, and sums that a float does not hold exactly.
 TEST_F(Encoders, HotPixel) {
   const SensorSize sensor = {9, 9};
-  const auto events = make_stream(Spread::one_pixel, sensor, 70'000, 4);
-  for (const EncodingParameters& parameters : kEncodings) {
+  auto events = make_stream(Spread::one_pixel, sensor, 70'000, 4);
+  for (Event& e : events) e.p = 1;
+  for (const EncodingParameters& parameters :
+       {EncodingParameters(VoxelGridParameters{2}), EncodingParameters(ToreParameters{3}),
+        EncodingParameters(EventImageParameters{})}) {
     ASSERT_NO_FATAL_FAILURE(compare(parameters, sensor, events));
   }
 }
@@ -165,7 +173,8 @@ TEST_F(Encoders, EventsOfScarf) {
   const auto scarf =
       test::value_of(ScarfPipeline::create(device, geometry, *make_levels(0.3, geometry.capacity), plan));
   const auto events = make_stream(Spread::moving_edge, sensor, 6000, 6);
-  const Buffer staging = buffer_of(events.data(), events.size() * sizeof(Event), events.size() * sizeof(Event));
+  const Buffer staging =
+      buffer_of(events.data(), events.size() * sizeof(Event), events.size() * sizeof(Event));
   const auto binding = test::value_of(scarf->bind_events(staging));
   const auto target = test::value_of(scarf->make_extract_target());
   const int64_t t_first = events.front().t;
@@ -180,8 +189,8 @@ TEST_F(Encoders, EventsOfScarf) {
   ASSERT_TRUE(reference->push(events));
   const auto active = test::value_of(reference->active_events(EventOrder::by_patch));
   const uint64_t half = scarf->half_events();
-  const DeviceEvents input = {&target->first, &target->second,     &target->total, half,
-                              2 * half,       static_cast<uint64_t>(geometry.capacity)};
+  const DeviceEvents input = {&target->first, &target->second, &target->total,
+                              half,           2 * half,        static_cast<uint64_t>(geometry.capacity)};
   for (const EncodingParameters& parameters : kEncodings) {
     const auto encoder = test::value_of(Encoder::create(device, parameters, sensor, input.most_events));
     const auto bound = test::value_of(encoder->bind(input));

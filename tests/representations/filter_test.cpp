@@ -1,13 +1,9 @@
 // Noise filters on the device against the reference filters in front of the reference representations.
-#include "gpu/filter.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "gpu/stream.h"
-#include "representations/make.h"
 #include "tests/support/context.h"
 #include "tests/support/representations.h"
 #include "tests/support/streams.h"
@@ -20,66 +16,34 @@ using test::Spread;
 
 const std::vector<FilterParameters> kSupport = {SupportFilter{.range = 1, .period = 40}};
 const std::vector<FilterParameters> kRefractory = {RefractoryFilter{.period = 60}};
-const std::vector<FilterParameters> kBoth = {SupportFilter{.range = 2, .period = 30}, RefractoryFilter{.period = 25}};
-const std::vector<FilterParameters> kThree = {RefractoryFilter{.period = 9}, SupportFilter{.range = 3, .period = 20},
+const std::vector<FilterParameters> kBoth = {SupportFilter{.range = 2, .period = 30},
+                                             RefractoryFilter{.period = 25}};
+const std::vector<FilterParameters> kThree = {RefractoryFilter{.period = 9},
+                                              SupportFilter{.range = 3, .period = 20},
                                               SupportFilter{.range = 1, .period = 300}};
 const std::vector<FilterParameters> kFarReaching = {SupportFilter{.range = 7, .period = 3}};
 const std::vector<FilterParameters> kChains[] = {kSupport, kRefractory, kBoth, kThree, kFarReaching};
 
-FilterChain reference_chain(const std::vector<FilterParameters>& filters, SensorSize sensor) {
-  std::vector<std::unique_ptr<EventFilter>> made;
-  for (const FilterParameters& filter : filters) {
-    made.push_back(test::value_of(make_reference_filter(filter, sensor)));
-  }
-  return FilterChain(std::move(made));
-}
-
 class Filters : public test::DeviceTest {
  protected:
-  // A time surface shows where which event passed, and when.
-  void make(const std::vector<FilterParameters>& filters, SensorSize sensor, const GpuOptions& options = {}) {
+  void make(const std::vector<FilterParameters>& filters, SensorSize sensor, const GpuOptions& options = {},
+            const Parameters& parameters = SaeParameters{}) {
     sensor_ = sensor;
-    vulkan::Device& device = context_->vulkan();
-    auto inner = test::value_of(make_sae(device, SaeParameters{}, sensor, options));
-    ImagePipeline* images = inner.get();
-    auto filtered = FilteredPipeline::create(device, std::move(inner), images, /*asks_for_newest=*/true, filters);
-    ASSERT_TRUE(filtered) << filtered.error().message;
-    pipeline_ = filtered->get();
-    stream_ = test::value_of(Stream::create(context_, std::move(*filtered), options));
-    chain_ = reference_chain(filters, sensor);
-    reference_ = test::value_of(make_reference_representation(SaeParameters{}, sensor));
-    outside_ = 0;
+    device_ = test::value_of(make_gpu_representation(context_, parameters, sensor, options, filters));
+    reference_ = test::value_of(
+        behind_filters(test::value_of(make_reference_representation(parameters, sensor)), filters));
   }
 
   void push(std::span<const Event> events) {
-    const auto report = stream_->push(events);
-    ASSERT_TRUE(report) << report.error().message;
-    outside_ += report->outside;
-    const auto passing = chain_.filter(events);
-    ASSERT_TRUE(passing) << passing.error().message;
-    ASSERT_TRUE(reference_->push(*passing));
+    const PushReport a = test::value_of(device_->push(events));
+    const PushReport b = test::value_of(reference_->push(events));
+    ASSERT_EQ(a.accepted, b.accepted);
+    ASSERT_EQ(a.outside, b.outside);
   }
 
   void compare() {
-    ASSERT_EQ(state(), test::value_of(reference_->state()));
-    const auto image = test::value_of(stream_->query<Image<uint8_t>>(
-        QueryKind::image, [&](Query& q, const StreamTimes& t) { return pipeline_->record_u8(q.commands, t, {}); }));
-    ASSERT_EQ(image, test::value_of(reference_->u8_image()));
-    auto reports = test::value_of(stream_->query<std::vector<uint8_t>>(
-        QueryKind::state, [&](Query&, const StreamTimes&) -> Result<Answer<std::vector<uint8_t>>> {
-          auto answer = pipeline_->record_reports();
-          return Answer<std::vector<uint8_t>>{answer.parts, [&, read = answer.read](HostParts parts) {
-                                                reports_ = test::value_of(read(parts));
-                                                return Result<std::vector<uint8_t>>(std::vector<uint8_t>{});
-                                              }};
-        }));
-    for (FilterReport& report : reports_) report.outside = outside_;
-    ASSERT_EQ(reports_, chain_.reports());
-  }
-
-  std::vector<uint8_t> state() {
-    return test::value_of(stream_->query<std::vector<uint8_t>>(
-        QueryKind::state, [&](Query& q, const StreamTimes& t) { return pipeline_->record_state(q.commands, t); }));
+    ASSERT_NO_FATAL_FAILURE(test::expect_same_outputs(*device_, *reference_));
+    ASSERT_EQ(test::value_of(device_->filter_reports()), test::value_of(reference_->filter_reports()));
   }
 
   // Batches of random sizes, with empty ones among them, compared after each.
@@ -95,13 +59,27 @@ class Filters : public test::DeviceTest {
   }
 
   SensorSize sensor_;
-  FilteredPipeline* pipeline_ = nullptr;  // of the stream
-  std::shared_ptr<Stream> stream_;
-  FilterChain chain_;
+  std::unique_ptr<GpuRepresentation> device_;
   std::unique_ptr<Representation> reference_;
-  std::vector<FilterReport> reports_;
-  uint64_t outside_ = 0;
 };
+
+// Behind the same filters every representation that is exact sees the same events.
+TEST_F(Filters, EveryRepresentation) {
+  std::mt19937 random(6);
+  for (const RepresentationInfo& info : representations()) {
+    SCOPED_TRACE(info.name);
+    if (!info.exact) continue;
+    make(kBoth, {61, 37}, {}, *parse_parameters(info.name));
+    ASSERT_NO_FATAL_FAILURE(feed(make_stream(Spread::moving_edge, sensor_, 1500, random()), random));
+  }
+}
+
+TEST_F(Filters, CountsOfATimeWindowAreRefused) {
+  const auto refused =
+      make_gpu_representation(context_, TimeWindowParameters{.counts = true}, {8, 8}, {}, kSupport);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::illegal_parameter);
+}
 
 TEST_F(Filters, EverySpread) {
   std::mt19937 random(1);
@@ -110,8 +88,9 @@ TEST_F(Filters, EverySpread) {
       SCOPED_TRACE(static_cast<int>(spread));
       GpuOptions options;
       options.submission_events = random() % 2 == 0 ? 0 : 1 + static_cast<uint32_t>(random() % 900);
-      make(chain, {61, 37}, options);
-      const auto events = make_stream(spread, sensor_, 1500, random(), static_cast<int64_t>(random()) - 2'000'000'000);
+      make(chain, {150, 70}, options);  // several tiles
+      const auto events =
+          make_stream(spread, sensor_, 2500, random(), static_cast<int64_t>(random()) - 2'000'000'000);
       ASSERT_NO_FATAL_FAILURE(feed(events, random));
     }
   }
@@ -119,7 +98,8 @@ TEST_F(Filters, EverySpread) {
 
 TEST_F(Filters, TinyAndOddSensors) {
   std::mt19937 random(2);
-  for (const SensorSize sensor : {SensorSize{1, 1}, SensorSize{3, 2}, SensorSize{17, 16}, SensorSize{130, 33}}) {
+  for (const SensorSize sensor :
+       {SensorSize{1, 1}, SensorSize{3, 2}, SensorSize{17, 16}, SensorSize{130, 33}}) {
     for (const auto& chain : kChains) {
       make(chain, sensor);
       ASSERT_NO_FATAL_FAILURE(feed(make_stream(Spread::beyond, sensor, 600, random()), random));
@@ -127,8 +107,9 @@ TEST_F(Filters, TinyAndOddSensors) {
   }
 }
 
-// Steps back in time, and times far apart. (Of those further apart than this, a representation behind reference filters
-// may refuse what it accepts behind filters on the device: its first event is the first one that passed.)
+// Steps back in time, and times far apart. (Of those further apart than this, a representation behind
+// reference filters may refuse what it accepts behind filters on the device: its first event is the first one
+// that passed.)
 TEST_F(Filters, TimesThatJump) {
   std::mt19937 random(3);
   constexpr int64_t kFar = (int64_t{1} << 47) - 1;
@@ -147,8 +128,7 @@ TEST_F(Filters, ResetForgetsEverything) {
   make(kBoth, {30, 20});
   for (int64_t t_begin : {int64_t{0}, int64_t{1} << 60, -(int64_t{1} << 60)}) {
     ASSERT_NO_FATAL_FAILURE(feed(make_stream(Spread::one_row, sensor_, 800, random(), t_begin), random));
-    ASSERT_TRUE(stream_->reset() && chain_.reset() && reference_->reset());
-    outside_ = 0;
+    ASSERT_TRUE(device_->reset() && reference_->reset());
     ASSERT_NO_FATAL_FAILURE(compare());
   }
 }
@@ -163,9 +143,8 @@ TEST_F(Filters, HotPixel) {
 }
 
 TEST_F(Filters, RefusesWhatIsNotLegal) {
-  auto inner = test::value_of(make_sae(context_->vulkan(), SaeParameters{}, {8, 8}, {}));
   const std::vector<FilterParameters> illegal = {SupportFilter{.range = 8}};
-  const auto filtered = FilteredPipeline::create(context_->vulkan(), std::move(inner), nullptr, false, illegal);
+  const auto filtered = make_gpu_representation(context_, SaeParameters{}, {8, 8}, {}, illegal);
   ASSERT_FALSE(filtered);
   EXPECT_EQ(filtered.error().code, ErrorCode::illegal_parameter);
 }

@@ -24,7 +24,8 @@ constexpr uint32_t kBlock = layout::kPrefixBlock;
 std::vector<uint32_t> random_words(size_t count, uint32_t below, uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<uint32_t> words(count);
-  for (uint32_t& word : words) word = static_cast<uint32_t>(below == 0 ? static_cast<uint32_t>(random()) : random() % below);
+  for (uint32_t& word : words)
+    word = static_cast<uint32_t>(below == 0 ? static_cast<uint32_t>(random()) : random() % below);
   return words;
 }
 
@@ -37,8 +38,8 @@ class Scan : public test::DeviceTest {
 
   // A buffer of the host, which shaders sum in place.
   Buffer buffer_of(const std::vector<uint32_t>& words) {
-    Buffer buffer = test::value_of(Buffer::create(context_->vulkan(), "test", words.size() * sizeof(uint32_t),
-                                                  MemoryUse::readback));
+    Buffer buffer = test::value_of(
+        Buffer::create(context_->vulkan(), "test", words.size() * sizeof(uint32_t), MemoryUse::readback));
     std::memcpy(buffer.mapped(), words.data(), words.size() * sizeof(uint32_t));
     return buffer;
   }

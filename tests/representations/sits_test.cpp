@@ -25,31 +25,31 @@ constexpr Rule kRules[] = {Rule::paper, Rule::greater, Rule::event_driven};
 class DeviceSits final : public OnDevice<GpuRepresentation> {
  public:
   DeviceSits(std::shared_ptr<Stream> stream, ImagePipeline& pipeline)
-      : OnDevice(std::move(stream)), pipeline_(pipeline) {}
+      : OnDevice(Feed{std::move(stream)}), pipeline_(pipeline) {}
 
   SensorSize sensor() const override { return pipeline_.sensor(); }
   Pending<Image<uint8_t>> u8_image(std::optional<int64_t> now) override {
-    return stream_->query<Image<uint8_t>>(QueryKind::image, [&](Query& q, const StreamTimes& times) {
+    return stream_->query<Image<uint8_t>>(QueryKind::image, [&](Query& q, const StreamFacts& times) {
       return pipeline_.record_u8(q.commands, times, now);
     });
   }
   Pending<Image<float>> float_image(std::optional<int64_t> now) override {
-    return stream_->query<Image<float>>(QueryKind::image, [&](Query& q, const StreamTimes& times) {
+    return stream_->query<Image<float>>(QueryKind::image, [&](Query& q, const StreamFacts& times) {
       return pipeline_.record_float(q.commands, times, now);
     });
   }
   Pending<Image<int64_t>> raw_image() override {
-    return stream_->query<Image<int64_t>>(QueryKind::state, [&](Query& q, const StreamTimes& times) {
+    return stream_->query<Image<int64_t>>(QueryKind::state, [&](Query& q, const StreamFacts& times) {
       return pipeline_.record_raw(q.commands, times);
     });
   }
   Pending<std::vector<Event>> events() override {
-    return stream_->query<std::vector<Event>>(QueryKind::events, [&](Query& q, const StreamTimes& times) {
+    return stream_->query<std::vector<Event>>(QueryKind::events, [&](Query& q, const StreamFacts& times) {
       return pipeline_.record_events(q.commands, times);
     });
   }
   Pending<std::vector<uint8_t>> state() override {
-    return stream_->query<std::vector<uint8_t>>(QueryKind::state, [&](Query& q, const StreamTimes& times) {
+    return stream_->query<std::vector<uint8_t>>(QueryKind::state, [&](Query& q, const StreamFacts& times) {
       return pipeline_.record_state(q.commands, times);
     });
   }
@@ -194,6 +194,35 @@ TEST_F(Sits, BurstsThatCrossTilesAgain) {
     for (uint32_t sweeps : {4u, 24u, 100u}) {
       ASSERT_NO_FATAL_FAILURE(compare({rule, 9}, sensor, events, {SitsStrategy::sweeps, sweeps, 16}, random));
     }
+  }
+}
+
+// Points that walk to and fro, so that what tiles find goes different ways at a time: a tile that rests while
+// what it found last still travels must not fall back behind it.
+TEST_F(Sits, WalkersThatMeet) {
+  std::mt19937 random(8);
+  const SensorSize sensor = {150, 20};
+  const auto d = device({Rule::paper, 5}, sensor, {SitsStrategy::sweeps, 200, 16});
+  const auto r = test::reference(SitsParameters{Rule::paper, 5}, sensor);
+  ASSERT_TRUE(d && r);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Event> events;
+    const size_t walkers = 2 + random() % 4;
+    std::vector<int32_t> x(walkers), y(walkers), step(walkers);
+    for (size_t w = 0; w < walkers; ++w) {
+      x[w] = static_cast<int32_t>(random() % 150);
+      y[w] = static_cast<int32_t>(random() % 20);
+      step[w] = random() % 2 == 0 ? -1 : 1;
+    }
+    for (int i = 0; i < 400; ++i) {
+      const size_t w = random() % walkers;
+      x[w] = std::clamp(x[w] + step[w], 0, sensor.width - 1);
+      if (random() % 50 == 0 || x[w] == 0 || x[w] == sensor.width - 1) step[w] = -step[w];
+      events.push_back(
+          test::event(0, x[w], std::clamp(y[w] + static_cast<int32_t>(random() % 3) - 1, 0, 19)));
+    }
+    ASSERT_TRUE(d->push(events) && r->push(events));
+    ASSERT_EQ(test::value_of(d->state()), test::value_of(r->state())) << "trial " << trial;
   }
 }
 

@@ -90,13 +90,6 @@ inline std::vector<Case> representation_cases() {
   };
 }
 
-/// Whether a query changes what later queries show.
-inline bool query_changes_state(const Parameters& parameters) {
-  if (const auto* aae = std::get_if<AaeParameters>(&parameters)) return !aae->keep;
-  const auto* chain = std::get_if<ChainSaeParameters>(&parameters);
-  return chain != nullptr && chain->rule == ChainSaeParameters::Rule::event_driven;
-}
-
 inline Event event(int64_t t, int32_t x, int32_t y = 0, uint8_t p = 1) {
   return {t, static_cast<uint16_t>(x), static_cast<uint16_t>(y), p};
 }

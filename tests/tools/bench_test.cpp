@@ -180,6 +180,7 @@ TEST(Published, FiguresBelongToTheirSensors) {
   EXPECT_FALSE(costs_in_paper("scarf", {1280, 720}).ns_per_event);
   EXPECT_FALSE(costs_in_paper("sae", {240, 180}).query_us);
   EXPECT_EQ(costs_of_released_code("scarf", {1280, 720}).ns_per_event, 537);
+  EXPECT_EQ(costs_of_released_default_scarf({1280, 720}).ns_per_event, 150);
   EXPECT_EQ(costs_of_released_code("chain_sae", {346, 260}).query_us, 734);
   EXPECT_FALSE(costs_of_released_code("eros", {240, 180}).query_us);
   EXPECT_FALSE(costs_of_released_code("scarf", {64, 48}).ns_per_event);
@@ -195,8 +196,9 @@ TEST(PaperReport, EveryLineOfTheCsvHasEveryColumn) {
   const auto device = cells_of(lines[2]);
   ASSERT_EQ(reference.size(), names.size());
   ASSERT_EQ(device.size(), names.size());
-  const auto cell = [&](const std::vector<std::string>& line, const std::string& name) {
-    return line[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+  const auto cell = [&](const std::vector<std::string>& line, const std::string& name) -> std::string {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? "no column " + name : line[static_cast<size_t>(found - names.begin())];
   };
   EXPECT_EQ(cell(reference, "implementation"), "reference");
   EXPECT_EQ(cell(reference, "ns_per_event"), "12.5");

@@ -355,7 +355,7 @@ TEST_F(Program, RendersVideosAndComparisons) {
   EXPECT_EQ(cv::countNonZero(left != expected), 0);
   const cv::Mat right = both(cv::Rect(both.cols - 64, both.rows - 48, 64, 48));
   for (const Event& e : events_) {
-    if (e.t >= events_.back().t - 33'000) {
+    if (e.t > events_.back().t - 33'000) {
       EXPECT_EQ(right.at<uint8_t>(e.y, e.x), 255);
     }
   }
@@ -440,6 +440,50 @@ TEST_F(Program, VerifiesTheDevice) {
   EXPECT_THAT(run("verify " + file + " --batch 1000 --max-events 4500").out,
               StartsWith("identical: 4500 events, 5 batches, "));
   EXPECT_EQ(run("digest " + file).out, run("digest --cpu " + file).out);
+}
+
+TEST_F(Program, EveryRepresentationIsListedVerifiedAndShown) {
+  const std::string file = recording(3000);
+  const std::string list = run("representations").out;
+  for (const RepresentationInfo& info : representations()) {
+    EXPECT_THAT(list, HasSubstr(info.name + "  " + info.description + "\n"));
+    for (const ParameterInfo& p : info.parameters)
+      EXPECT_THAT(list, HasSubstr("--" + p.name + " " + p.value));
+    const Outcome outcome = run("verify " + file + " --batch 700 --representation " + info.name);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.out,
+                HasSubstr(info.exact ? "identical: 3000 events" : "within the bound: 3000 events"));
+  }
+  ASSERT_EQ(run("render --cpu " + file + " --representation all -o " + path("all.png")).exit_code, 0);
+  const cv::Mat all = cv::imread(path("all.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(all.size(), cv::Size(3 * 64 + 2 * 8, 3 * (20 + 48) + 2 * 8));
+  EXPECT_EQ(cv::countNonZero(all(cv::Rect(0, 20, 64, 48)) != reference_picture(3000)), 0);
+}
+
+TEST_F(Program, RepresentationsTakeTheirOwnParameters) {
+  const std::string digest = "digest " + recording(3000) + " --representation eros ";
+  const std::string with_defaults = run(digest + "--cpu").out;
+  EXPECT_THAT(with_defaults, testing::MatchesRegex("state [0-9a-f]+\nimage [0-9a-f]+\nevents [0-9a-f]+\n"));
+  EXPECT_EQ(run(digest + "--cpu --kernel 9 --decay 0.3").out, with_defaults);
+  EXPECT_NE(run(digest + "--cpu --kernel 7").out, with_defaults);
+  EXPECT_EQ(run(digest).out, with_defaults);  // on the device
+  for (const char* wrong : {"--kernel 64", "--tau 1ms", "--preset light", "--accumulation 1"}) {
+    EXPECT_EQ(run(digest + "--cpu " + wrong).exit_code, 2) << wrong;
+  }
+  EXPECT_THAT(run(digest + "--cpu --preset light").err, HasSubstr("--preset is used by scarf only"));
+  EXPECT_EQ(run("digest " + recording(10) + " --cpu --kernel 9").exit_code, 2);  // scarf has no kernel
+  EXPECT_EQ(run(digest + "--cpu --dump " + path("dump")).exit_code, 2);
+}
+
+TEST_F(Program, FiltersStandInFrontAndCount) {
+  const std::string file = recording(3000) + " --filter support:period=300us --filter refractory:period=2ms";
+  const Outcome reference = run("digest --cpu " + file);
+  EXPECT_THAT(reference.out, HasSubstr("filter support: "));
+  EXPECT_THAT(reference.out, HasSubstr("filter refractory: "));
+  EXPECT_EQ(run("digest " + file).out, reference.out);
+  const Outcome verified = run("verify " + file + " --batch 400");
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  EXPECT_EQ(run("digest --cpu " + recording(10) + " --filter support:range=9").exit_code, 2);
 }
 
 TEST_F(Program, ListsDevices) {
