@@ -47,7 +47,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
                                                 const GpuOptions& options);
   ~Stream();
 
-  Pipeline& pipeline() { return *pipeline_; }
+  vulkan::Device& device() { return device_; }
   SensorSize sensor() const { return pipeline_->sensor(); }
 
   // See Representation and GpuRepresentation.

@@ -4,8 +4,10 @@
 
 #include "core/packed_event.h"
 #include "core/queries.h"
+#include "gpu/encoder.h"
 #include "gpu/on_device.h"
 #include "scarf/gpu.h"
+#include "scarf/gpu_encoding.h"
 #include "scarf/pipeline.h"
 
 namespace scarf {
@@ -25,12 +27,66 @@ Snapshot unpack_state(const Geometry& g, int64_t t_first, const uint64_t* totals
   return s;
 }
 
+// Extracts the active events and encodes them, in one submission.
+class DeviceEncoder final : public GpuEncoder {
+ public:
+  DeviceEncoder(vulkan::Device& device, std::shared_ptr<Stream> stream, const ScarfPipeline& pipeline)
+      : device_(device), stream_(std::move(stream)), pipeline_(pipeline) {}
+
+  ~DeviceEncoder() override {
+    // Nothing may be destroyed while the device uses it.
+    if (!stream_->finish()) device_.calls().DeviceWaitIdle(device_.handle());
+  }
+
+  Result<void> build(const EncodingParameters& parameters, const Geometry& geometry) {
+    auto target = pipeline_.make_extract_target();
+    if (!target) return target.error();
+    target_ = std::move(*target);
+    const uint64_t half = pipeline_.half_events();
+    const DeviceEvents events = {&target_->first, &target_->second,
+                                 &target_->total, half,
+                                 2 * half,        static_cast<uint64_t>(geometry.capacity)};
+    auto encoder = Encoder::create(device_, parameters, geometry.sensor(), events.most_events);
+    if (!encoder) return encoder.error();
+    encoder_ = std::move(*encoder);
+    auto bound = encoder_->bind(events);
+    if (!bound) return bound.error();
+    bound_ = std::move(*bound);
+    return {};
+  }
+
+  Pending<Image<float>> encode() override {
+    const auto record = [&](Query& q, const StreamFacts& facts) -> Result<Answer<Image<float>>> {
+      pipeline_.record_extract(q.commands, *target_, 0, pipeline_.plan().patches, /*active_only=*/true,
+                               facts.first.value_or(0));
+      encoder_->record(q.commands, *bound_);
+      const EncodingShape shape = encoder_->shape();
+      return image_answer<float>(encoder_->tensor(), {shape.width, shape.height}, shape.planes);
+    };
+    return stream_->query<Image<float>>(QueryKind::image, record);
+  }
+
+ private:
+  vulkan::Device& device_;
+  std::shared_ptr<Stream> stream_;
+  const ScarfPipeline& pipeline_;  // of the stream
+  std::unique_ptr<ExtractTarget> target_;
+  std::unique_ptr<Encoder> encoder_;
+  std::unique_ptr<Encoder::Bound> bound_;
+};
+
 class DeviceScarf final : public OnDevice<GpuScarf> {
  public:
   DeviceScarf(Feed feed, ScarfPipeline& pipeline, const Geometry& geometry)
       : OnDevice(std::move(feed)), pipeline_(pipeline), geometry_(geometry) {}
 
   const Geometry& geometry() const override { return geometry_; }
+
+  Result<std::unique_ptr<GpuEncoder>> make_encoder(const EncodingParameters& parameters) {
+    auto encoder = std::make_unique<DeviceEncoder>(stream_->device(), stream_, pipeline_);
+    if (auto r = encoder->build(parameters, geometry_); !r) return r.error();
+    return std::unique_ptr<GpuEncoder>(std::move(encoder));
+  }
 
   Pending<Image<int32_t>> count_image(PolarityMode mode) override {
     return image<int32_t>(mode, &ScarfPipeline::record_counts);
@@ -126,6 +182,13 @@ Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> con
                            /*asks_for_newest=*/false, options, filters);
   if (!feed) return feed.error();
   return std::unique_ptr<GpuScarf>(std::make_unique<DeviceScarf>(std::move(*feed), scarf, *checked));
+}
+
+Result<std::unique_ptr<GpuEncoder>> make_gpu_encoder(GpuScarf& scarf, const EncodingParameters& parameters) {
+  auto* const device = dynamic_cast<DeviceScarf*>(&scarf);
+  if (device != nullptr) return device->make_encoder(parameters);
+  return Error{ErrorCode::illegal_parameter,
+               "this GpuScarf was not made by make_gpu_scarf; encode its active_events() instead"};
 }
 
 }  // namespace scarf

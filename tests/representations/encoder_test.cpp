@@ -8,6 +8,7 @@
 #include <cstring>
 #include <random>
 
+#include "scarf/gpu_encoding.h"
 #include "scarf/pipeline.h"
 #include "tests/support/context.h"
 #include "tests/support/same.h"
@@ -196,6 +197,24 @@ TEST_F(Encoders, EventsOfScarf) {
     const auto bound = test::value_of(encoder->bind(input));
     ASSERT_NO_FATAL_FAILURE(compare(bits_of(*encoder, *bound), parameters, sensor, active));
   }
+}
+
+// Through the public interface, between pushes, and dropped while it is in flight.
+TEST_F(Encoders, OfAScarfThatGoesOn) {
+  const SensorSize sensor = {70, 45};
+  const auto scarf = device_scarf(*make_geometry(Preset::light, sensor));
+  for (const EncodingParameters& parameters : kEncodings) {
+    const auto encoder = make_gpu_encoder(*scarf, parameters);
+    ASSERT_TRUE(encoder) << encoder.error().message;
+    for (uint32_t seed : {1, 2}) {
+      ASSERT_TRUE(scarf->push(make_stream(Spread::moving_edge, sensor, 5000, seed, 1000)));
+      const auto events = test::value_of(scarf->active_events());
+      const Image<float> expected = test::value_of(encode(parameters, sensor, events));
+      ASSERT_EQ(test::value_of((*encoder)->encode()), expected) << info_of(parameters).name;
+    }
+    (void)(*encoder)->encode();
+  }
+  EXPECT_FALSE(make_gpu_encoder(*scarf, HatsParameters{}));
 }
 
 TEST_F(Encoders, RefusesWhatIsNotThere) {
