@@ -56,8 +56,8 @@ class Tolerance {
 };
 
 /// Compares everything that two implementations hand out. A Scarf: totals and every slot, all images, both
-/// event lists. Others: state, images, events; with a tolerance the 8-bit pictures only. `a` is the reference.
-/// Errors: whatever a query of either side returned.
+/// event lists. Others: state, images, events; with a tolerance the 8-bit pictures only. `a` is the
+/// reference. Errors: whatever a query of either side returned.
 Result<std::optional<std::string>> first_difference(Representation& a, Representation& b,
                                                     const SideNames& names, Tolerance* tolerance = nullptr);
 

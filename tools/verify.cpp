@@ -64,7 +64,8 @@ Result<int> verify(const VerifyOptions& options) {
     return 1;
   }
   const auto open_again = [&] { return open_events(options.stream.file, {.sensor = options.stream.sensor}); };
-  const Lockstep failed = shortest_failure(*std::move(run), open_again, play_options, a, b, names, make_tolerance);
+  const Lockstep failed =
+      shortest_failure(*std::move(run), open_again, play_options, a, b, names, make_tolerance);
   std::cout << text("different after ", failed.events, " events, ", failed.batches,
                     " batches: ", *failed.difference, "\n");
   if (auto r = write_prefix(open_again, recording->sensor, failed.events, options.failing); !r) {

@@ -29,8 +29,8 @@ struct Snapshot {
   }
 };
 
-/// What the state digest covers of one patch, little-endian: its total (u64), then for each filled slot in slot
-/// order x u16, y u16, p u8, active u8, t i64.
+/// What the state digest covers of one patch, little-endian: its total (u64), then for each filled slot in
+/// slot order x u16, y u16, p u8, active u8, t i64.
 std::vector<uint8_t> state_bytes(const Snapshot& snapshot, size_t patch);
 
 /// Order of extracted events. Both orders list the events of a patch from oldest to newest.

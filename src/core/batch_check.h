@@ -14,9 +14,9 @@ namespace scarf {
 inline constexpr uint64_t kMaxTimeDistance = uint64_t{1} << 48;
 
 struct CheckedBatch {
-  uint64_t outside = 0;  ///< events outside the sensor
-  std::optional<int64_t> t_first;  ///< of the stream's first event inside the sensor, if there is one by now
-  std::optional<int64_t> t_newest;   ///< of this batch's last event inside the sensor, if there is one
+  uint64_t outside = 0;             ///< events outside the sensor
+  std::optional<int64_t> t_first;   ///< of the stream's first event inside the sensor, if there is one by now
+  std::optional<int64_t> t_newest;  ///< of this batch's last event inside the sensor, if there is one
   std::optional<int64_t> t_largest;  ///< of this batch's events inside the sensor
 };
 

@@ -10,8 +10,8 @@
 
 namespace scarf {
 
-/// Looks numbers up in Levels and writes a picture of at most `most_pixels`. Numbers below 0 count as 0, those
-/// beyond the table as its last entry.
+/// Looks numbers up in Levels and writes a picture of at most `most_pixels`. Numbers below 0 count as 0,
+/// those beyond the table as its last entry.
 class Tone {
  public:
   /// One image of 32-bit numbers.

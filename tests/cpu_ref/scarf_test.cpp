@@ -137,7 +137,8 @@ TEST(ReferenceScarf, PolarityModes) {
   const auto separate = get(scarf->count_image(PolarityMode::separate));
   EXPECT_EQ(separate.planes, 2);
   EXPECT_THAT(separate.pixels, ElementsAre(1, 2, 0, 0, 1, 0, 0, 2));  // OFF, then ON
-  EXPECT_THAT(get(scarf->u8_planes(PolarityMode::separate)).pixels, ElementsAre(76, 153, 0, 0, 76, 0, 0, 153));
+  EXPECT_THAT(get(scarf->u8_planes(PolarityMode::separate)).pixels,
+              ElementsAre(76, 153, 0, 0, 76, 0, 0, 153));
   EXPECT_THAT(get(scarf->float_image()).pixels, ElementsAre(0.6f, 0.6f, 0.0f, 0.6f));
   const auto refused_u8 = scarf->u8_planes(PolarityMode::difference).wait();
   ASSERT_FALSE(refused_u8.ok());
