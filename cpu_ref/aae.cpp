@@ -5,6 +5,7 @@
 
 #include <deque>
 
+#include "core/block_grid.h"
 #include "cpu_ref/references.h"
 #include "cpu_ref/surface.h"
 
@@ -17,17 +18,11 @@ constexpr double kClose = 1e-9;
 
 constexpr double kConvergence = 0.02;  // relative
 
-constexpr int32_t kEsvo2Columns = 8;
-constexpr int32_t kEsvo2Rows = 6;
 constexpr double kEsvo2Convergence = 0.95;
 constexpr size_t kEsvo2Check = 10;  // events from one check to the next
 
 double seconds(int64_t microseconds) {
   return static_cast<double>(microseconds) * 1e-6;
-}
-
-int32_t ceil_div(int32_t a, int32_t b) {
-  return (a + b - 1) / b;
 }
 
 class Aae final : public ValueSurface {
@@ -92,15 +87,6 @@ class Aae final : public ValueSurface {
 };
 
 }  // namespace
-
-BlockGrid block_grid(const AaeParameters& parameters, SensorSize sensor) {
-  if (parameters.esvo2) {
-    return {ceil_div(sensor.width, kEsvo2Columns), ceil_div(sensor.height, kEsvo2Rows), kEsvo2Columns,
-            kEsvo2Rows};
-  }
-  const int32_t size = parameters.block;
-  return {size, size, ceil_div(sensor.width, size), ceil_div(sensor.height, size)};
-}
 
 BlockWalk walk_block(std::span<const Event> queue) {
   const size_t n = queue.size();

@@ -1,25 +1,12 @@
-// The blocks of AAE, and the walk through the queue of one.
+// The walk of AAE through the queue of one block.
 #pragma once
 
 #include <cstddef>
 #include <span>
 
 #include "scarf/event.h"
-#include "scarf/parameters.h"
 
 namespace scarf {
-
-/// Blocks in raster order; those at the right and lower border may reach beyond the sensor.
-struct BlockGrid {
-  int32_t width = 1;  ///< of a block, pixels
-  int32_t height = 1;
-  int32_t columns = 1;
-  int32_t rows = 1;
-
-  size_t blocks() const { return static_cast<size_t>(columns) * rows; }
-  size_t block_of(const Event& e) const { return static_cast<size_t>(e.y / height) * columns + e.x / width; }
-};
-BlockGrid block_grid(const AaeParameters& parameters, SensorSize sensor);
 
 struct BlockWalk {
   size_t drawn = 0;   ///< how many of the newest events are drawn

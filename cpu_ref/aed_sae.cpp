@@ -136,8 +136,7 @@ class AedSae final : public ValueSurface {
     std::vector<uint8_t> bytes;
     append_little_endian(bytes, t_max_);
     append_all(bytes, last_);
-    append_little_endian(bytes, uint64_t{events.size()});
-    for (const Event& e : events) append_event(bytes, e);
+    append_list(bytes, events);
     return bytes;
   }
 

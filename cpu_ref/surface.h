@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/batch_check.h"
-#include "core/little_endian.h"
+#include "core/event_bytes.h"
 #include "core/queries.h"
 #include "scarf/representation.h"
 
@@ -119,13 +119,6 @@ inline uint64_t age_of(int64_t t, int64_t now) {
 template <class Number>
 void append_all(std::vector<uint8_t>& bytes, const std::vector<Number>& numbers) {
   for (const Number number : numbers) append_little_endian(bytes, number);
-}
-
-inline void append_event(std::vector<uint8_t>& bytes, const Event& e) {
-  append_little_endian(bytes, e.t);
-  append_little_endian(bytes, e.x);
-  append_little_endian(bytes, e.y);
-  append_little_endian(bytes, e.p);
 }
 
 }  // namespace scarf

@@ -100,8 +100,7 @@ class CountWindow final : public Surface {
     const std::vector<Event> events = *kept_events();
     std::vector<uint8_t> bytes;
     append_little_endian(bytes, t_max_);
-    append_little_endian(bytes, uint64_t{events.size()});
-    for (const Event& e : events) append_event(bytes, e);
+    append_list(bytes, events);
     return bytes;
   }
 

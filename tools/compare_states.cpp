@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/block_grid.h"
 #include "core/text.h"
 #include "cpu_ref/aae.h"
 
@@ -223,7 +224,7 @@ Result<void> Tolerance::prepare(Representation& reference) {
   if (!events) return events.error();
   const BlockGrid grid = block_grid(*aae, sensor_);
   // A block that once was close may have another queue ever since.
-  close_.resize(static_cast<size_t>(grid.columns) * grid.rows, false);
+  close_.resize(grid.blocks(), false);
   for (auto begin = events->begin(); begin != events->end();) {
     const size_t block = grid.block_of(*begin);
     const auto end =

@@ -1,6 +1,7 @@
 // Parameters and shapes of the encodings.
 #include "scarf/encoding.h"
 
+#include "core/ceil_div.h"
 #include "core/fields.h"
 #include "scarf/geometry.h"
 
@@ -51,10 +52,6 @@ namespace {
 template <class P>
 EncodingInfo info(std::string name, std::string title, std::string description, bool cpu_only = false) {
   return {std::move(name), std::move(title), std::move(description), describe_fields<P>(), cpu_only};
-}
-
-int32_t ceil_div(int32_t a, int32_t b) {
-  return (a + b - 1) / b;
 }
 
 // Planes of one polarity: the neighbours of a pixel.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/ceil_div.h"
 #include "core/text.h"
 
 namespace scarf {
@@ -25,9 +26,6 @@ constexpr std::array<std::pair<Preset, std::string_view>, 5> kPresetNames = {{
 
 int32_t floor_div(int32_t a, int32_t b) {
   return a / b - (a % b < 0 ? 1 : 0);
-}
-int32_t ceil_div(int32_t a, int32_t b) {
-  return (a + b - 1) / b;
 }
 
 Error illegal(const std::string& what) {

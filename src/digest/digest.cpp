@@ -2,7 +2,7 @@
 
 #include <openssl/evp.h>
 
-#include "core/little_endian.h"
+#include "core/event_bytes.h"
 
 namespace scarf {
 
@@ -37,10 +37,7 @@ std::string Digest::hex() {
 }
 
 void EventDigest::add(const Event& event) {
-  append_little_endian(buffer_, static_cast<uint64_t>(event.t));
-  append_little_endian(buffer_, event.x);
-  append_little_endian(buffer_, event.y);
-  append_little_endian(buffer_, event.p);
+  append_event(buffer_, event);
   if (buffer_.size() >= 64 * 1024) flush();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/ceil_div.h"
 #include "shaders/shaders.h"
 
 namespace scarf {
@@ -11,10 +12,6 @@ namespace {
 constexpr uint32_t kLeastChunkEvents = 64;
 constexpr uint32_t kMostChunkEvents = 1024;
 constexpr uint64_t kTableWords = uint64_t{1} << 22;
-
-constexpr uint32_t ceil_div(uint32_t a, uint32_t b) {
-  return (a + b - 1) / b;
-}
 
 // Tiles per axis that have a pixel in common with a window of the halo's reach.
 constexpr uint32_t most_tiles(const TileListsPlan& plan, uint32_t tiles) {

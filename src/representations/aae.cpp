@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ceil_div.h"
+#include "core/event_bytes.h"
 #include "core/sensor_check.h"
 #include "core/text.h"
 #include "gpu/event_log.h"
@@ -9,7 +11,6 @@
 #include "gpu/tone.h"
 #include "representations/block_sort.h"
 #include "representations/make.h"
-#include "representations/state_bytes.h"
 #include "shaders/shaders.h"
 
 namespace scarf {
@@ -22,23 +23,7 @@ using vulkan::Kernel;
 
 constexpr uint32_t kFirstEvents = 1u << 16;
 constexpr double kBrightness = 0.4;  // of one drawn event
-constexpr int32_t kEsvo2Columns = 8;
-constexpr int32_t kEsvo2Rows = 6;
 constexpr uint64_t kWalkBytes = 32;  // the struct Walk of aae_walk.glsl
-
-uint32_t ceil_div(uint32_t a, uint32_t b) {
-  return (a + b - 1) / b;
-}
-
-BlockGrid make_grid(const AaeParameters& parameters, SensorSize sensor) {
-  if (parameters.esvo2) {
-    const auto width = static_cast<int32_t>(ceil_div(sensor.width, kEsvo2Columns));
-    const auto height = static_cast<int32_t>(ceil_div(sensor.height, kEsvo2Rows));
-    return {{width, height}, kEsvo2Columns, kEsvo2Rows};
-  }
-  const int32_t size = parameters.block;
-  return {{size, size}, ceil_div(sensor.width, size), ceil_div(sensor.height, size)};
-}
 
 Levels make_brightness() {
   Levels levels;
@@ -173,7 +158,7 @@ class AaePipeline final : public ImagePipeline, private EventLogOwner {
       : device_(device),
         parameters_(parameters),
         sensor_(sensor),
-        grid_(make_grid(parameters, sensor)),
+        grid_(block_grid(parameters, sensor)),
         submission_events_(events) {}
 
   uint32_t pixels() const { return static_cast<uint32_t>(sensor_.width) * sensor_.height; }

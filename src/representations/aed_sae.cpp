@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/ceil_div.h"
+#include "core/event_bytes.h"
 #include "core/sensor_check.h"
 #include "core/text.h"
 #include "core/words.h"
@@ -11,7 +13,6 @@
 #include "gpu/fourier.h"
 #include "gpu/submission.h"
 #include "representations/make.h"
-#include "representations/state_bytes.h"
 #include "shaders/aed_sae_layout.h"
 #include "shaders/shaders.h"
 
@@ -33,10 +34,6 @@ struct AedState {
   int64_t t_max;
 };
 static_assert(sizeof(AedState) == 32);
-
-uint32_t ceil_div(uint64_t a, uint64_t b) {
-  return static_cast<uint32_t>((a + b - 1) / b);
-}
 
 // The earliest time that is not too old at t.
 int64_t list_begin(int64_t t, int64_t window) {
@@ -324,8 +321,8 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
   void record_clears(Commands& commands, layout::AedPush push) const {
     constexpr uint32_t kSpareTrips = 1000;
     push.steps = std::min(device_.limits().loop_trips - kSpareTrips, kMostClearSteps);
-    const uint32_t dispatches = ceil_div(2 * uint64_t{push.events}, push.steps);
-    for (uint32_t i = 0; i < dispatches; ++i) {
+    const uint64_t dispatches = ceil_div(2 * uint64_t{push.events}, push.steps);
+    for (uint64_t i = 0; i < dispatches; ++i) {
       push.begin = i == 0 ? 1 : 0;
       commands.dispatch(sized_.clears, 1, layout::kLinearGroup, push);
       commands.barrier();

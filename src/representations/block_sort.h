@@ -3,23 +3,13 @@
 
 #include <cstdint>
 
+#include "core/block_grid.h"
 #include "gpu/event_log.h"
 #include "gpu/pipeline_builder.h"
 #include "gpu/scan.h"
 #include "shaders/aae_layout.h"
 
 namespace scarf {
-
-/// Blocks of pixels in raster order; those at the right and at the bottom may be cut off by the sensor's
-/// edge.
-struct BlockGrid {
-  SensorSize block;  ///< pixels
-  uint32_t columns = 0;
-  uint32_t rows = 0;
-
-  uint32_t blocks() const { return columns * rows; }
-  uint32_t block_of(const Event& e) const { return e.y / block.height * columns + e.x / block.width; }
-};
 
 /// Counting sort by one digit of the block's number, or by two if there are many blocks: a table has one
 /// entry for each digit and chunk of events. Its prefix sum, over digits first and chunks second, says where

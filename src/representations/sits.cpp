@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ceil_div.h"
 #include "core/little_endian.h"
 #include "core/sensor_check.h"
 #include "gpu/submission.h"
@@ -39,10 +40,6 @@ constexpr uint32_t kSweepSubmissionEvents = 1u << 15;
 constexpr uint32_t kMostSweepSubmissionEvents = 1u << 18;
 // Dispatches of the walk per submission, on devices that limit the length of one.
 constexpr uint32_t kWalkDispatches = 64;
-
-constexpr uint32_t ceil_div(uint32_t a, uint32_t b) {
-  return (a + b - 1) / b;
-}
 
 // Blocks of team_x x team_y pairs of pixels that a window of `side` pixels per axis, wherever it begins, is
 // visited in.

@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/little_endian.h"
+#include "core/event_bytes.h"
 #include "core/sensor_check.h"
 #include "core/words.h"
 #include "gpu/event_log.h"
 #include "gpu/submission.h"
 #include "gpu/tone.h"
 #include "representations/make.h"
-#include "representations/state_bytes.h"
 #include "shaders/shaders.h"
 #include "shaders/time_window_layout.h"
 

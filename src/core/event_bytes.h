@@ -1,4 +1,4 @@
-// Bytes of states that several representations have.
+// Events as bytes, in digests and states: t i64, x u16, y u16, p u8, little-endian.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ inline void append_event(std::vector<uint8_t>& bytes, const Event& e) {
   append_little_endian(bytes, e.p);
 }
 
-/// How many events there are, and the events.
+/// How many events there are (u64), and the events.
 inline void append_list(std::vector<uint8_t>& bytes, std::span<const Event> events) {
   append_little_endian(bytes, uint64_t{events.size()});
   for (const Event& e : events) append_event(bytes, e);
