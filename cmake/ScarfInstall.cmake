@@ -36,7 +36,7 @@ scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.
 scarf_component(scarf_vulkan)
 scarf_component(scarf_gpu HEADERS gpu.h gpu_encoding.h)
 scarf_component(scarf_cpu_ref HEADERS reference.h)
-scarf_component(scarf_io HEADERS io.h)
+scarf_component(scarf_io HEADERS frames.h io.h)
 scarf_component(scarf_simulate HEADERS simulate.h)
 # A set of its own: only who asks for this component needs OpenSSL.
 scarf_component(scarf_digest EXPORT scarfDigestTargets HEADERS digest.h)

@@ -25,6 +25,7 @@ void add_bench(CLI::App& program, Command& command);
 void add_compare(CLI::App& program, Command& command);
 void add_devices(CLI::App& program, Command& command);
 void add_digest(CLI::App& program, Command& command);
+void add_formats(CLI::App& program, Command& command);
 void add_info(CLI::App& program, Command& command);
 void add_representations(CLI::App& program, Command& command);
 void add_render(CLI::App& program, Command& command);

@@ -8,12 +8,14 @@
 #include "tools/commands.h"
 #include "tools/play.h"
 #include "tools/progress.h"
+#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
 
 struct InfoOptions {
   std::string file;
+  ReadOptions read;
   bool digest = false;
 };
 
@@ -29,7 +31,7 @@ std::string mean_rate(uint64_t events, int64_t duration) {
 }
 
 Result<int> info(const InfoOptions& options) {
-  const auto source = open_events(options.file);
+  const auto source = open_events(options.file, options.read);
   if (!source) return source.error();
 
   uint64_t on = 0;
@@ -69,8 +71,12 @@ Result<int> info(const InfoOptions& options) {
   line("outside", text(report.outside));
   line("back-steps", text(report.back_steps));
   line("largest back-step", text(report.largest_back_step, " us"));
+  line("dropped", text(report.dropped));
+  line("gaps", text(report.gaps));
   line("unknown words", text(report.unknown_words));
   line("truncated bytes", text(report.truncated_bytes));
+  line("damaged places", text(report.damages));
+  if (report.damage) line("first damage", text("byte ", report.damage->byte, ": ", report.damage->what));
   if (options.digest) std::cout << "events " << digest.hex() << "\n";
   return 0;
 }
@@ -81,6 +87,7 @@ void add_info(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("info", "Format, sensor, events and oddities of a recording");
   auto options = std::make_shared<InfoOptions>();
   app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_read_options(*app, options->read);
   app->add_flag("--digest", options->digest, "Also the SHA-256 of the decoded events");
   app->callback([&command, options] { command.run = [options] { return info(*options); }; });
 }

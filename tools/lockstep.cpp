@@ -77,7 +77,7 @@ Result<void> write_prefix(const OpenAgain& open_again, SensorSize sensor, uint64
                           const std::string& path) {
   const auto source = open_again();
   if (!source) return source.error();
-  const auto sink = create_events(path, WriteFormat::text, sensor);
+  const auto sink = create_events(path, "text", sensor);
   if (!sink) return sink.error();
   const auto write = [&](std::span<const Event> batch) { return (*sink)->write(batch); };
   const auto played = play(**source, {.max_events = events}, {.events = write});

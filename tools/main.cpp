@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", "scarf " SCARF_VERSION);
   program.require_subcommand(0, 1);
   scarf::tools::Command command;
+  scarf::tools::add_formats(program, command);
   scarf::tools::add_info(program, command);
   scarf::tools::add_render(program, command);
   scarf::tools::add_representations(program, command);

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "scarf/reference.h"
+#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
@@ -106,9 +107,7 @@ void add_representation_options(CLI::App& app, StreamOptions& o, std::vector<std
 
 void add_stream_options(CLI::App& app, StreamOptions& o, const std::vector<std::string>& more) {
   app.add_option("file", o.file, "Recording; - is standard input")->required();
-  add_parsed_option(app, "--geometry", o.sensor, parse_sensor,
-                    "Sensor size WxH, where the recording does not say");
-
+  add_read_options(app, o.read);
   add_representation_options(app, o, more);
 
   const std::string work = "Work";
@@ -156,7 +155,7 @@ Result<Parameters> parameters_of(const StreamOptions& o) {
 }
 
 Result<OpenRecording> open_recording(const StreamOptions& options) {
-  auto source = open_events(options.file, {.sensor = options.sensor});
+  auto source = open_events(options.file, options.read);
   if (!source) return source.error();
   const auto sensor = require_sensor(**source, options.file);
   if (!sensor) return sensor.error();

@@ -19,7 +19,7 @@ namespace scarf::tools {
 
 struct StreamOptions {
   std::string file;
-  std::optional<SensorSize> sensor;
+  ReadOptions read;  ///< how the recording is read
 
   std::string representation = "scarf";
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them

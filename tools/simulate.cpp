@@ -10,6 +10,7 @@
 #include "tools/commands.h"
 #include "tools/files.h"
 #include "tools/options.h"
+#include "tools/output_format.h"
 #include "tools/parse.h"
 #include "tools/pictures.h"
 
@@ -24,28 +25,11 @@ constexpr std::string_view kEdges = "edges";
 
 struct SimulateOptions {
   std::string output;
-  std::optional<WriteFormat> format;
+  std::string format;  // empty: by the name
   SimulationOptions simulation;
   std::string truth;  // folder
   double truth_rate = 30;
 };
-
-Result<WriteFormat> parse_format(const std::string& word) {
-  if (word == "evt2") return WriteFormat::evt2;
-  if (word == "evt3") return WriteFormat::evt3;
-  if (word == "text") return WriteFormat::text;
-  return Error{ErrorCode::illegal_parameter, text("format is '", word, "', legal is evt2, evt3 or text")};
-}
-
-Result<WriteFormat> format_of(const SimulateOptions& options) {
-  if (options.format) return *options.format;
-  const std::string extension = fs::path(options.output).extension().string();
-  if (extension == ".raw") return WriteFormat::evt3;
-  if (extension == ".txt" || extension == ".csv") return WriteFormat::text;
-  return Error{ErrorCode::illegal_parameter, text("the format of ", options.output,
-                                                  " does not follow from its name; add --format evt2, evt3 "
-                                                  "or text, or end the name in .raw, .txt or .csv")};
-}
 
 // Frames and outlines at the truth rate, from time 0 to the end, into a folder that is there.
 Result<void> write_truth(const SimulateOptions& options, const Simulation& simulation) {
@@ -67,7 +51,7 @@ Result<void> write_truth(const SimulateOptions& options, const Simulation& simul
 Result<int> simulate(const SimulateOptions& options) {
   const auto simulation = make_simulation(options.simulation);
   if (!simulation) return simulation.error();
-  const auto format = format_of(options);
+  const auto format = output_format(options.output, options.format);
   if (!format) return format.error();
   if (!(options.truth_rate > 0 && options.truth_rate <= kMaxTruthRate)) {
     return Error{ErrorCode::illegal_parameter,
@@ -104,10 +88,11 @@ void add_simulate(CLI::App& program, Command& command) {
       program.add_subcommand("simulate", "Record a simulated event camera that watches moving shapes");
   auto options = std::make_shared<SimulateOptions>();
   SimulationOptions& o = options->simulation;
-  app->add_option("output", options->output,
-                  "Recording to write: .raw is EVT3, .txt and .csv are text; - is standard output")
+  app->add_option(
+         "output", options->output,
+         "Recording to write, in the format of its name (" + output_extensions() + "); - is standard output")
       ->required();
-  add_parsed_option(*app, "--format", options->format, parse_format, "evt2, evt3 or text");
+  app->add_option("--format", options->format, "Format, where the name does not tell; see scarf formats");
   std::string scenes;
   for (const auto name : scene_names()) scenes += (scenes.empty() ? "" : ", ") + std::string(name);
   app->add_option("--scene", o.scene, scenes)->capture_default_str();

@@ -63,7 +63,7 @@ Result<int> verify(const VerifyOptions& options) {
                       "\nstandard input cannot be read again: no failing prefix was written\n");
     return 1;
   }
-  const auto open_again = [&] { return open_events(options.stream.file, {.sensor = options.stream.sensor}); };
+  const auto open_again = [&] { return open_events(options.stream.file, options.stream.read); };
   const Lockstep failed =
       shortest_failure(*std::move(run), open_again, play_options, a, b, names, make_tolerance);
   std::cout << text("different after ", failed.events, " events, ", failed.batches,

@@ -7,25 +7,71 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scarf/event.h"
 #include "scarf/result.h"
 
 namespace scarf {
 
+/// Where a recording is broken.
+struct Damage {
+  uint64_t byte = 0;  ///< of the file; in compressed files, of the packet or chunk that is broken
+  std::string what;
+};
+
 /// What a reader met so far.
 struct ReadReport {
-  uint64_t events = 0;            ///< events handed out (inside the sensor)
+  uint64_t events = 0;            ///< events handed out
   uint64_t outside = 0;           ///< events outside the sensor (or beyond uint16_t): counted and dropped
-  uint64_t back_steps = 0;        ///< events (outside ones included) older than the event before them
+  uint64_t back_steps = 0;        ///< events (outside ones included) older than the event before them;
+                                  ///< with TimePolicy clamp and drop: than the newest one so far
   int64_t largest_back_step = 0;  ///< microseconds
+  uint64_t dropped = 0;           ///< events left out by TimePolicy::drop
+  uint64_t gaps = 0;              ///< places where the file shows that data is missing
   uint64_t unknown_words = 0;     ///< words or lines that the format does not define
-  uint64_t truncated_bytes = 0;   ///< bytes at the end that do not make a whole word or line
+  uint64_t truncated_bytes = 0;   ///< bytes at the end that do not make a whole word, line or packet
+  uint64_t damages = 0;           ///< broken places that reading went around
+  std::optional<Damage> damage;   ///< the first of them
+};
+
+/// What becomes of an event that is older than one before it. Every policy counts them.
+enum class TimePolicy {
+  keep,   ///< it stays as it is
+  clamp,  ///< it gets the time of the newest event so far
+  drop,   ///< it is left out
+  error,  ///< reading ends with an error that names it
+};
+
+/// What becomes of an event outside the sensor.
+enum class OutOfSensor { drop, error };
+
+/// What is subtracted from all times.
+enum class TimeShift {
+  none,
+  first_high,   ///< the first TIME_HIGH word's time, as Prophesee's own reader does; EVT formats only
+  first_event,  ///< the time of the first event handed out, which then is 0
 };
 
 struct ReadOptions {
   /// Sensor size, for files that do not say. One that disagrees with the file is an error naming both.
   std::optional<SensorSize> sensor;
+  /// A name of formats(); empty: recognised by content.
+  std::string format = {};
+  /// Which camera, of a file with several: a name out of the error that says there are several.
+  std::string stream = {};
+  TimePolicy time_policy = TimePolicy::keep;
+  OutOfSensor out_of_sensor = OutOfSensor::drop;
+  TimeShift time_shift = TimeShift::none;
+  /// Damage, unknown words and truncated bytes are errors that name the place.
+  bool strict = false;
+  /// Order of the columns of text and of arrays without names, such as "txyp"; empty: the format's own.
+  std::string columns = {};
+  /// Unit of times where a format leaves it open: "s", "ms", "us", "ns"; empty: the format's own.
+  std::string time_unit = {};
+  /// YARP packets without times of their events: "packet" (all have the packet's), "spread" (over its
+  /// duration).
+  std::string yarp_time = {};
 };
 
 /// A stream of events out of a file. Memory use does not depend on the length of the file.
@@ -33,7 +79,7 @@ class EventSource {
  public:
   virtual ~EventSource() = default;
 
-  /// Name of the recognised format: "EVT2", "EVT3" or "text".
+  /// Name of the format, one of formats().
   virtual std::string_view format() const = 0;
   /// Sensor size, from the file or from the options; nullopt if neither says. Without it no event is outside.
   virtual std::optional<SensorSize> sensor() const = 0;
@@ -46,33 +92,42 @@ class EventSource {
   virtual uint64_t bytes_total() const = 0;
 };
 
-/// Opens a recording; "-" is standard input. The format is recognised by content, not by name: Prophesee RAW
-/// in EVT2 and EVT3, with or without its header, and text lines `t x y p` with t in seconds. Errors: io
-/// (cannot open), bad_input (not recognised, the sensor disagrees with `options`), illegal_parameter
-/// (`options` names a size outside 1..16,384).
+/// A format that scarf knows.
+struct FormatInfo {
+  std::string name;         ///< as ReadOptions::format and create_events take it
+  std::string title;        ///< for people
+  std::string missing;      ///< empty, or the library without which this build cannot read it
+  bool recognised = false;  ///< by content; else ReadOptions::format must name it
+  bool written = false;     ///< create_events can make it
+};
+
+/// All formats, those that are not built in included.
+std::vector<FormatInfo> formats();
+
+/// Opens a recording: a file, a folder where the format is one, or "-", which is standard input. The format
+/// is recognised by content, not by name, unless `options` names it. Errors: io (cannot open), bad_input (not
+/// recognised, broken from the start, the sensor disagrees with `options`), illegal_parameter (an option that
+/// is out of range or of no use to the format).
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options = {});
 
 /// The sensor size of a source, or the error that asks for `--geometry WxH`.
 Result<SensorSize> require_sensor(const EventSource& source, const std::string& path);
 
-enum class WriteFormat { evt2, evt3, text };
-
 /// A file that events are written to, in order.
 class EventSink {
  public:
   virtual ~EventSink() = default;
-  /// Errors: io; bad_input for an event that the format cannot hold (naming it): one outside the sensor, and
-  /// in EVT2 and EVT3 a back-step, a coordinate above 2047, or a time below 0 or beyond 4096 turns of the
-  /// format's clock (2^46 us, 2^36 us). The events before it are written.
+  /// Errors: io; bad_input for an event that the format cannot hold, naming it (docs/FORMATS.md says what
+  /// each can). The events before it are written.
   virtual Result<void> write(std::span<const Event> events) = 0;
   /// Completes the file. It is written beside its place and appears there now; destroyed without finish(), an
   /// EventSink leaves no file.
   virtual Result<void> finish() = 0;
 };
 
-/// Creates or replaces a recording; "-" is standard output. EVT2 and EVT3 are Prophesee RAW files with a
-/// header that names the sensor size; text is `t x y p` with t in seconds and a first line `width height`.
-Result<std::unique_ptr<EventSink>> create_events(const std::string& path, WriteFormat format,
+/// Creates or replaces a recording in one of formats(); "-" is standard output. Errors: io; illegal_parameter
+/// for a format that is not written, naming those that are, and for an illegal sensor size.
+Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view format,
                                                  SensorSize sensor);
 
 }  // namespace scarf

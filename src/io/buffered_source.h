@@ -16,7 +16,8 @@ namespace scarf {
 class BufferedSource : public EventSource {
  public:
   /// `name` is what error messages call the file.
-  BufferedSource(ByteReader input, std::string name, std::optional<SensorSize> sensor);
+  BufferedSource(ByteReader input, std::string name, std::optional<SensorSize> sensor,
+                 const ReadOptions& options);
 
   std::optional<SensorSize> sensor() const final { return tally_.sensor(); }
   Result<size_t> read(std::span<Event> out) final;

@@ -32,6 +32,7 @@ ByteWriter::~ByteWriter() {
 }
 
 Result<ByteWriter> ByteWriter::create(const std::string& path) {
+  if (path == "-") return standard_output();
   auto file = std::make_unique<AtomicFile>(path);
   const int fd = open(file->name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd < 0) return system_error(path, "cannot create");

@@ -16,10 +16,8 @@ namespace scarf {
 
 class ByteWriter {
  public:
-  /// Creates or replaces a file. Errors: io.
+  /// Creates or replaces a file; "-" is standard output. Errors: io.
   static Result<ByteWriter> create(const std::string& path);
-  /// Errors: io.
-  static Result<ByteWriter> standard_output();
   ~ByteWriter();
   ByteWriter(ByteWriter&& other) noexcept;
   ByteWriter(const ByteWriter&) = delete;
@@ -45,6 +43,7 @@ class ByteWriter {
   static constexpr size_t kLarge = 256 * 1024;
 
   ByteWriter(int fd, std::string path, std::unique_ptr<AtomicFile> file);
+  static Result<ByteWriter> standard_output();
   Result<void> flush();
 
   int fd_;

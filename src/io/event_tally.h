@@ -1,61 +1,61 @@
-// Counts what every reader reports of its events, and drops the events outside the sensor.
+// What every reader does with its events: counts them, applies the policies, drops those outside the sensor.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "scarf/io.h"
 
 namespace scarf {
 
+/// Readers hand out no time further from 0 than this, so that differences and shifts fit 64 bits.
+inline constexpr int64_t kMaxTime = int64_t{1} << 62;
+
 class EventTally {
  public:
-  explicit EventTally(std::optional<SensorSize> sensor) : sensor_(sensor) {
-    constexpr int32_t kEverything = std::numeric_limits<uint16_t>::max() + 1;
-    limit_ = sensor.value_or(SensorSize{kEverything, kEverything});
-  }
+  EventTally(std::optional<SensorSize> sensor, const ReadOptions& options);
 
   std::optional<SensorSize> sensor() const { return sensor_; }
+  bool strict() const { return strict_; }
 
-  /// Counts the next events of the file and moves those inside the sensor to the front; returns their number.
-  size_t keep(std::span<Event> events) {
-    size_t kept = 0;
-    for (const Event e : events) {
-      note_time(e.t);
-      events[kept] = e;
-      kept += limit_.contains(e) ? 1 : 0;
-    }
-    report.events += kept;
-    report.outside += events.size() - kept;
-    return kept;
-  }
+  /// Takes the next events of the file, counts them and moves those that are handed out to the front; returns
+  /// their number. After a failure nothing is handed out any more.
+  size_t keep(std::span<Event> events);
 
   /// Counts the next event of the file, one whose coordinates no Event can hold.
-  void drop(int64_t t) {
-    note_time(t);
-    ++report.outside;
-  }
+  void drop(int64_t t);
+
+  /// The time of the first TIME_HIGH, for TimeShift::first_high; before the first event.
+  void set_first_high(int64_t t);
+
+  /// Notes a broken place of the file. With ReadOptions::strict that is a failure.
+  void note_damage(uint64_t byte, std::string what);
+
+  /// Why reading ends: an event that the policies do not allow, or damage.
+  const std::optional<Error>& failure() const { return failure_; }
+  void fail(Error error);
 
   ReadReport report;
 
  private:
-  void note_time(int64_t t) {
-    if (t < previous_) [[unlikely]] {
-      // Unsigned: the distance of two hostile times may not fit a signed difference.
-      const auto step = static_cast<int64_t>(static_cast<uint64_t>(previous_) - static_cast<uint64_t>(t));
-      ++report.back_steps;
-      report.largest_back_step = std::max(report.largest_back_step, step);
-    }
-    previous_ = t;
-  }
+  size_t keep_plainly(std::span<Event> events);
+  size_t keep_by_policy(std::span<Event> events);
+  bool in_order(Event& event);
+  void count_back_step(int64_t t);
 
   std::optional<SensorSize> sensor_;
   SensorSize limit_;
+  TimePolicy time_policy_;
+  OutOfSensor out_of_sensor_;
+  TimeShift time_shift_;
+  bool strict_;
+  std::optional<int64_t> shift_;
   int64_t previous_ = std::numeric_limits<int64_t>::min();
+  std::optional<Error> failure_;
 };
 
 }  // namespace scarf

@@ -1,20 +1,26 @@
-#include "io/evt2_reader.h"
+// Reader of EVT2 words.
 
 #include <utility>
 
 #include "core/little_endian.h"
 #include "io/buffered_source.h"
 #include "io/evt2.h"
+#include "io/known_formats.h"
+#include "io/sensor_size.h"
 #include "io/word_check.h"
+#include "io/word_guess.h"
+#include "io/writers.h"
 
 namespace scarf {
 namespace {
+
+constexpr std::string_view kName = "evt2";
 
 class Evt2Reader final : public BufferedSource {
  public:
   using BufferedSource::BufferedSource;
 
-  std::string_view format() const override { return "EVT2"; }
+  std::string_view format() const override { return kName; }
 
  protected:
   Decoded decode(std::span<const uint8_t> bytes, bool last, std::span<Event> out) override;
@@ -23,8 +29,9 @@ class Evt2Reader final : public BufferedSource {
   // Copied into decode() and back, so that the compiler can hold it in registers while events are written.
   struct State {
     evt2::TimeHigh time_high;
-    int64_t time = -1;  // of time_high, microseconds; negative before the first word of it
-    uint32_t skip = 0;  // words left of an IMU block
+    int64_t time = -1;        // of time_high, microseconds; negative before the first word of it
+    int64_t first_high = -1;  // the first value of `time`
+    uint32_t skip = 0;        // words left of an IMU block
     uint64_t unknown = 0;
 
     void other_word(uint32_t word) {
@@ -32,6 +39,7 @@ class Evt2Reader final : public BufferedSource {
         case evt2::kTimeHigh:
           time_high.set(word & (evt2::TimeHigh::kRange - 1));
           time = static_cast<int64_t>((time_high.unwrapped() << evt2::kTimeLowBits) & INT64_MAX);
+          if (first_high < 0) first_high = time;
           break;
         case evt2::kImu:
           skip = evt2::kImuWords - 1;
@@ -68,15 +76,22 @@ BufferedSource::Decoded Evt2Reader::decode(std::span<const uint8_t> bytes, bool 
   }
   state_ = s;
   tally_.report.unknown_words = s.unknown;
+  if (s.first_high >= 0) tally_.set_first_high(s.first_high);
   return {at, tally_.keep(out.first(count)), count < out.size()};
 }
 
-}  // namespace
-
-std::unique_ptr<EventSource> make_evt2_reader(ByteReader input, std::string name,
-                                              std::optional<SensorSize> sensor) {
-  return std::make_unique<Evt2Reader>(std::move(input), std::move(name), sensor);
+Result<std::unique_ptr<EventSource>> open_evt2(Input input, const ReadOptions& options) {
+  const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
+  if (!sensor) return sensor.error();
+  return std::unique_ptr<EventSource>(
+      std::make_unique<Evt2Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
 }
+
+bool recognise_evt2(const Beginning& beginning) {
+  return beginning.last && guess_words(beginning.bytes) == kName;
+}
+
+}  // namespace
 
 bool looks_like_evt2(std::span<const uint8_t> bytes) {
   WordCheck<evt2::kTimeHighBits> check;
@@ -103,5 +118,13 @@ bool looks_like_evt2(std::span<const uint8_t> bytes) {
   constexpr uint32_t kOneSecond = 1'000'000 >> evt2::kTimeLowBits;
   return check.plausible(kOneSecond);
 }
+
+const Format kEvt2Format = {.name = kName,
+                            .title = "Prophesee RAW, EVT2",
+                            .options = kTakesFirstHigh,
+                            .prophesee = true,
+                            .recognise = recognise_evt2,
+                            .open = open_evt2,
+                            .create = create_evt2};
 
 }  // namespace scarf

@@ -16,7 +16,7 @@ class Evt2Writer final : public CheckedSink {
  public:
   Evt2Writer(ByteWriter output, SensorSize sensor)
       : CheckedSink(std::move(output), sensor, {"EVT2", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
-    output_.append(prophesee_header_text(WordFormat::evt2, sensor));
+    output_.append(prophesee_header_text("evt2", sensor));
   }
 
  protected:
@@ -42,8 +42,10 @@ class Evt2Writer final : public CheckedSink {
 
 }  // namespace
 
-std::unique_ptr<EventSink> make_evt2_writer(ByteWriter output, SensorSize sensor) {
-  return std::make_unique<Evt2Writer>(std::move(output), sensor);
+Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor) {
+  auto output = ByteWriter::create(path);
+  if (!output) return output.error();
+  return std::unique_ptr<EventSink>(std::make_unique<Evt2Writer>(*std::move(output), sensor));
 }
 
 }  // namespace scarf

@@ -1,4 +1,4 @@
-#include "io/evt3_reader.h"
+// Reader of EVT3 words.
 
 #include <algorithm>
 #include <bit>
@@ -7,10 +7,16 @@
 #include "core/little_endian.h"
 #include "io/buffered_source.h"
 #include "io/evt3.h"
+#include "io/known_formats.h"
+#include "io/sensor_size.h"
 #include "io/word_check.h"
+#include "io/word_guess.h"
+#include "io/writers.h"
 
 namespace scarf {
 namespace {
+
+constexpr std::string_view kName = "evt3";
 
 // `yes` (0 or 1) ? a : b, in a form that compilers do not turn into a branch.
 uint32_t select(uint32_t yes, uint32_t a, uint32_t b) {
@@ -21,7 +27,7 @@ class Evt3Reader final : public BufferedSource {
  public:
   using BufferedSource::BufferedSource;
 
-  std::string_view format() const override { return "EVT3"; }
+  std::string_view format() const override { return kName; }
 
  protected:
   Decoded decode(std::span<const uint8_t> bytes, bool last, std::span<Event> out) override;
@@ -33,6 +39,7 @@ class Evt3Reader final : public BufferedSource {
     bool started = false;     // the first kTimeHigh was seen
     uint32_t brightness = 1;  // rows are of brightness changes, not of kOtherAddrY
     int64_t time_base = 0;    // of time_high, microseconds
+    int64_t first_high = -1;  // what TimeShift::first_high subtracts; negative before it is known
     uint32_t time_low = 0;
     uint32_t y = 0;
     uint32_t base_x = 0;
@@ -49,6 +56,8 @@ class Evt3Reader final : public BufferedSource {
       time_high.set(value);
       time_low = 0;
       time_base = static_cast<int64_t>((time_high.unwrapped() << evt3::kTimeLowBits) & INT64_MAX);
+      // OpenEB's rule: the TIME_HIGH before the first one.
+      if (first_high < 0) first_high = std::max<int64_t>(time_base - (int64_t{1} << evt3::kTimeLowBits), 0);
     }
 
     void set_vector(uint32_t mask, uint32_t length) {
@@ -129,15 +138,22 @@ BufferedSource::Decoded Evt3Reader::decode(std::span<const uint8_t> bytes, bool 
   }
   state_ = s;
   tally_.report.unknown_words = s.unknown;
+  if (s.first_high >= 0) tally_.set_first_high(s.first_high);
   return {at, tally_.keep(out.first(count)), count < out.size()};
 }
 
-}  // namespace
-
-std::unique_ptr<EventSource> make_evt3_reader(ByteReader input, std::string name,
-                                              std::optional<SensorSize> sensor) {
-  return std::make_unique<Evt3Reader>(std::move(input), std::move(name), sensor);
+Result<std::unique_ptr<EventSource>> open_evt3(Input input, const ReadOptions& options) {
+  const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
+  if (!sensor) return sensor.error();
+  return std::unique_ptr<EventSource>(
+      std::make_unique<Evt3Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
 }
+
+bool recognise_evt3(const Beginning& beginning) {
+  return beginning.last && guess_words(beginning.bytes) == kName;
+}
+
+}  // namespace
 
 bool looks_like_evt3(std::span<const uint8_t> bytes) {
   WordCheck<evt3::kTimeHighBits> check;
@@ -164,5 +180,13 @@ bool looks_like_evt3(std::span<const uint8_t> bytes) {
   constexpr uint32_t kSixtyMilliseconds = 60'000 >> evt3::kTimeLowBits;
   return check.plausible(kSixtyMilliseconds);
 }
+
+const Format kEvt3Format = {.name = kName,
+                            .title = "Prophesee RAW, EVT3",
+                            .options = kTakesFirstHigh,
+                            .prophesee = true,
+                            .recognise = recognise_evt3,
+                            .open = open_evt3,
+                            .create = create_evt3};
 
 }  // namespace scarf

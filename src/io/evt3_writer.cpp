@@ -22,7 +22,7 @@ class Evt3Writer final : public CheckedSink {
   Evt3Writer(ByteWriter output, SensorSize sensor)
       : CheckedSink(std::move(output), sensor, {"EVT3", 0, kTimeEnd, false, evt3::kCoordinateMask}),
         last_base_(std::min<int32_t>(sensor.width, evt3::kCoordinateMask + 1) - kVectorLength) {
-    output_.append(prophesee_header_text(WordFormat::evt3, sensor));
+    output_.append(prophesee_header_text("evt3", sensor));
   }
 
  protected:
@@ -109,8 +109,10 @@ class Evt3Writer final : public CheckedSink {
 
 }  // namespace
 
-std::unique_ptr<EventSink> make_evt3_writer(ByteWriter output, SensorSize sensor) {
-  return std::make_unique<Evt3Writer>(std::move(output), sensor);
+Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor) {
+  auto output = ByteWriter::create(path);
+  if (!output) return output.error();
+  return std::unique_ptr<EventSink>(std::make_unique<Evt3Writer>(*std::move(output), sensor));
 }
 
 }  // namespace scarf

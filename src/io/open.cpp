@@ -1,125 +1,157 @@
 // Recognition of a recording's format by its content.
 #include "io/open.h"
 
-#include <array>
+#include <filesystem>
 #include <utility>
 
 #include "core/text.h"
-#include "io/evt2_reader.h"
-#include "io/evt3_reader.h"
 #include "io/foreign_format.h"
+#include "io/format.h"
+#include "io/look_ahead.h"
 #include "io/prophesee_header.h"
-#include "io/sensor_size.h"
-#include "io/text_reader.h"
 
 namespace scarf {
 namespace {
 
-constexpr std::string_view kFormats = "Prophesee RAW (EVT2, EVT3) and text lines `t x y p` with t in seconds";
-
-// The beginning of the file that recognition looks at, in steps: a slow pipe is recognised by its first
-// lines.
-constexpr std::array<size_t, 3> kLookAhead = {256, 4096, 65'536};
-
-Error bad(std::string message) {
-  return {ErrorCode::bad_input, std::move(message)};
+Error illegal(std::string message) {
+  return {ErrorCode::illegal_parameter, std::move(message)};
 }
 
-Error unrecognised(std::span<const uint8_t> bytes) {
+// Which function of a format makes the source, and what to say of formats that have none.
+template <class Source>
+struct Kind;
+template <>
+struct Kind<EventSource> {
+  static constexpr auto kOpen = &Format::open;
+  static constexpr std::string_view kWhat = "events";
+};
+template <>
+struct Kind<FrameSource> {
+  static constexpr auto kOpen = &Format::open_frames;
+  static constexpr std::string_view kWhat = "frames";
+};
+template <>
+struct Kind<TriggerSource> {
+  static constexpr auto kOpen = &Format::open_triggers;
+  static constexpr std::string_view kWhat = "triggers";
+};
+
+// An option that the format has no use for is a mistake, and is not passed over.
+Result<void> check_options(const Format& format, const ReadOptions& options) {
+  const struct {
+    bool given;
+    uint32_t option;
+    std::string_view name;
+  } uses[] = {
+      {!options.stream.empty(), kTakesStream, "--stream"},
+      {!options.columns.empty(), kTakesColumns, "--columns"},
+      {!options.time_unit.empty(), kTakesTimeUnit, "--time-unit"},
+      {options.time_shift == TimeShift::first_high, kTakesFirstHigh, "--time-shift first-high"},
+      {!options.yarp_time.empty(), kTakesYarpTime, "--yarp-time"},
+  };
+  for (const auto& use : uses) {
+    if (use.given && (format.options & use.option) == 0) {
+      return illegal(text(use.name, " is not used by ", format.name, "; leave it out"));
+    }
+  }
+  return {};
+}
+
+template <class Source>
+Result<std::unique_ptr<Source>> open_as(const Format& format, Input input, const ReadOptions& options) {
+  if (!format.missing.empty()) {
+    return Error{ErrorCode::bad_input, text("this is ", format.title, ", and this build of scarf has no ",
+                                            format.missing, "; install it and build again")};
+  }
+  if (format.*Kind<Source>::kOpen == nullptr) {
+    return Error{ErrorCode::bad_input,
+                 text(format.title, " has no ", Kind<Source>::kWhat, " that scarf reads")};
+  }
+  if (auto r = check_options(format, options); !r) return r.error();
+  return (format.*Kind<Source>::kOpen)(std::move(input), options);
+}
+
+Error unrecognised(const Input& input) {
+  const auto bytes = input.bytes.available();
   std::string_view what = foreign_format(bytes);
+  if (input.folder) what = "this folder is no recording that scarf knows";
+  if (input.header) what = "the header names no format, and the words do not tell";
   if (what.empty()) what = bytes.empty() ? "the file is empty" : "not recognised as events";
-  return bad(text(what, "; scarf reads ", kFormats));
+  return {ErrorCode::bad_input, text(what, "; name the format with --format, `scarf formats` lists them")};
 }
 
-std::optional<WordFormat> guess_words(std::span<const uint8_t> bytes) {
-  const bool evt2 = looks_like_evt2(bytes);
-  const bool evt3 = looks_like_evt3(bytes);
-  if (evt2 == evt3) return std::nullopt;
-  return evt2 ? WordFormat::evt2 : WordFormat::evt3;
-}
-
-// The sensor that file and caller agree on.
-Result<std::optional<SensorSize>> agreed_sensor(std::optional<SensorSize> file,
-                                                std::optional<SensorSize> given) {
-  if (given) {
-    const auto legal = checked_sensor(given->width, given->height, "the sensor size given");
-    if (!legal) return Error{ErrorCode::illegal_parameter, legal.error().message};
-  }
-  if (file && given && *file != *given) {
-    return bad(text("the file's sensor is ", size_text(*file), ", but ", size_text(*given),
-                    " was given; leave it out or correct it"));
-  }
-  return file ? file : given;
-}
-
-Result<std::unique_ptr<EventSource>> open_words(ByteReader input, const std::string& name,
-                                                const PropheseeHeader& header, const ReadOptions& options) {
-  const auto sensor = agreed_sensor(header.sensor, options.sensor);
-  if (!sensor) return sensor.error();
-  const auto make = *header.format == WordFormat::evt2 ? make_evt2_reader : make_evt3_reader;
-  return make(std::move(input), name, *sensor);
-}
-
-Result<std::unique_ptr<EventSource>> open_text(ByteReader input, const std::string& name,
-                                               const TextStart& start, const ReadOptions& options) {
-  if (start.size) {
-    const auto legal = checked_sensor(start.size->width, start.size->height, "the first line");
-    if (!legal) return legal.error();
-  }
-  const auto sensor = agreed_sensor(start.size, options.sensor);
-  if (!sensor) return sensor.error();
-  input.skip(start.bytes);
-  return make_text_reader(std::move(input), name, *sensor);
-}
-
-Result<std::unique_ptr<EventSource>> recognise(ByteReader input, const std::string& name,
-                                               const ReadOptions& options) {
-  auto header = read_prophesee_header(input);
-  if (!header) return header.error();
-  if (*header && (*header)->format) return open_words(std::move(input), name, **header, options);
-
+Result<const Format*> recognise(Input& input) {
+  if (input.header && !input.header->format.empty()) return find_format(input.header->format);
   for (const size_t size : kLookAhead) {
-    if (const auto filled = input.fill(size); !filled) return filled.error();
-    if (*header) continue;
-    if (!foreign_format(input.available()).empty()) return unrecognised(input.available());
-    const auto start = find_text_start(input.available(), input.ended());
-    if (start) return open_text(std::move(input), name, *start, options);
+    if (const auto filled = input.bytes.fill(size); !filled) return filled.error();
+    const Beginning beginning{input.bytes.available(), input.bytes.ended(),
+                              size == kLookAhead.back() || input.bytes.ended(), input.path, input.folder};
+    if (!input.header && !foreign_format(beginning.bytes).empty()) break;
+    for (const Format* format : all_formats()) {
+      if (input.header && !format->prophesee) continue;
+      if (format->recognise != nullptr && format->recognise(beginning)) return format;
+    }
+    if (beginning.last) break;
   }
-  const auto guess = guess_words(input.available());
-  if (guess) {
-    const auto sensor = *header ? (*header)->sensor : std::nullopt;
-    return open_words(std::move(input), name, {guess, sensor}, options);
-  }
-  if (*header)
-    return bad(
-        text("the header names no format, and the words do not tell; add a line `% evt 2.0` or "
-             "`% evt 3.0`"));
-  return unrecognised(input.available());
+  return unrecognised(input);
 }
 
 std::string display_name(const std::string& path) {
   return path == "-" ? "standard input" : path;
 }
 
+// An error of opening names the file.
+Error named(const std::string& name, const Error& error) {
+  return {error.code, text(name, ": ", error.message)};
+}
+
+template <class Source>
+Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options) {
+  const std::string name = input.name;
+  auto header = read_prophesee_header(input.bytes);
+  if (!header) return named(name, header.error());
+  input.header = *std::move(header);
+  const auto format = options.format.empty() ? recognise(input) : find_format(options.format);
+  if (!format) return named(name, format.error());
+  auto source = open_as<Source>(**format, std::move(input), options);
+  if (!source) return named(name, source.error());
+  return source;
+}
+
+template <class Source>
+Result<std::unique_ptr<Source>> open_path(const std::string& path, const ReadOptions& options) {
+  std::error_code ignored;
+  const bool folder = path != "-" && std::filesystem::is_directory(path, ignored);
+  auto bytes = folder ? ByteReader::over({}) : ByteReader::open(path);
+  if (!bytes) return named(display_name(path), bytes.error());
+  const bool seekable = folder || bytes->total() > 0;
+  return open_any<Source>({*std::move(bytes), seekable ? path : "", display_name(path), folder, {}}, options);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<EventSource>> open_input(ByteReader input, const std::string& name,
                                                 const ReadOptions& options) {
-  auto source = recognise(std::move(input), name, options);
-  if (!source) return Error{source.error().code, text(name, ": ", source.error().message)};
-  return source;
+  return open_any<EventSource>({std::move(input), "", name, false, {}}, options);
 }
 
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options) {
-  auto input = ByteReader::open(path);
-  if (!input) return Error{input.error().code, text(display_name(path), ": ", input.error().message)};
-  return open_input(*std::move(input), display_name(path), options);
+  return open_path<EventSource>(path, options);
+}
+
+Result<std::unique_ptr<FrameSource>> open_frames(const std::string& path, const ReadOptions& options) {
+  return open_path<FrameSource>(path, options);
+}
+
+Result<std::unique_ptr<TriggerSource>> open_triggers(const std::string& path, const ReadOptions& options) {
+  return open_path<TriggerSource>(path, options);
 }
 
 Result<SensorSize> require_sensor(const EventSource& source, const std::string& path) {
   if (const auto sensor = source.sensor()) return *sensor;
-  return bad(
-      text(display_name(path), ": the file does not say its sensor size; give it with --geometry WxH"));
+  return Error{
+      ErrorCode::bad_input,
+      text(display_name(path), ": the file does not say its sensor size; give it with --geometry WxH")};
 }
 
 }  // namespace scarf

@@ -15,9 +15,12 @@ namespace {
 
 constexpr size_t kMaxLine = 4096;
 
+constexpr std::string_view kEvt2 = "evt2";
+constexpr std::string_view kEvt3 = "evt3";
+
 struct System {
   int32_t id;
-  WordFormat format;  // if the header does not say
+  std::string_view format;  // if the header does not say
   SensorSize sensor;
 };
 
@@ -27,13 +30,11 @@ constexpr SensorSize kGenX320{320, 320};
 
 // Cameras whose files may say no more than their system_ID.
 constexpr System kSystems[] = {
-    {21, WordFormat::evt2, kVga}, {23, WordFormat::evt2, kVga},     {25, WordFormat::evt2, kVga},
-    {28, WordFormat::evt2, kVga}, {29, WordFormat::evt2, kVga},     {33, WordFormat::evt2, kVga},
-    {34, WordFormat::evt2, kVga}, {35, WordFormat::evt2, kVga},     {41, WordFormat::evt2, kVga},
-    {26, WordFormat::evt2, kHd},  {31, WordFormat::evt2, kHd},      {39, WordFormat::evt2, kHd},
-    {40, WordFormat::evt3, kVga}, {30, WordFormat::evt3, kHd},      {46, WordFormat::evt3, kHd},
-    {48, WordFormat::evt3, kHd},  {49, WordFormat::evt3, kHd},      {50, WordFormat::evt3, kHd},
-    {53, WordFormat::evt3, kHd},  {59, WordFormat::evt3, kGenX320}, {64, WordFormat::evt3, kGenX320},
+    {21, kEvt2, kVga},     {23, kEvt2, kVga}, {25, kEvt2, kVga}, {28, kEvt2, kVga}, {29, kEvt2, kVga},
+    {33, kEvt2, kVga},     {34, kEvt2, kVga}, {35, kEvt2, kVga}, {41, kEvt2, kVga}, {26, kEvt2, kHd},
+    {31, kEvt2, kHd},      {39, kEvt2, kHd},  {40, kEvt3, kVga}, {30, kEvt3, kHd},  {46, kEvt3, kHd},
+    {48, kEvt3, kHd},      {49, kEvt3, kHd},  {50, kEvt3, kHd},  {53, kEvt3, kHd},  {59, kEvt3, kGenX320},
+    {64, kEvt3, kGenX320},
 };
 
 // Set in the system_ID of some evaluation kits; the camera is the one without it.
@@ -79,9 +80,9 @@ struct Keys {
   }
 };
 
-Result<WordFormat> format_from(std::string_view name) {
-  if (name == "EVT2" || name == "2.0") return WordFormat::evt2;
-  if (name == "EVT3" || name == "3.0") return WordFormat::evt3;
+Result<std::string_view> format_from(std::string_view name) {
+  if (name == "EVT2" || name == "2.0") return kEvt2;
+  if (name == "EVT3" || name == "3.0") return kEvt3;
   return bad(text("the header names the format '", name, "', which is not supported; EVT2 and EVT3 are"));
 }
 
@@ -121,7 +122,7 @@ Result<PropheseeHeader> interpret(const Keys& keys) {
     header.sensor = *size;
   }
   if (const System* system = find_system(keys.system_id)) {
-    if (!header.format) header.format = system->format;
+    if (header.format.empty()) header.format = system->format;
     if (!header.sensor) header.sensor = system->sensor;
   }
   return header;
@@ -174,8 +175,8 @@ Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input) 
   return std::optional(*header);
 }
 
-std::string prophesee_header_text(WordFormat format, SensorSize sensor) {
-  const bool evt2 = format == WordFormat::evt2;
+std::string prophesee_header_text(std::string_view format, SensorSize sensor) {
+  const bool evt2 = format == kEvt2;
   return text("% evt ", evt2 ? "2.0" : "3.0", "\n% format ", evt2 ? "EVT2" : "EVT3",
               ";height=", sensor.height, ";width=", sensor.width, "\n% geometry ", size_text(sensor),
               "\n% end\n");

@@ -4,16 +4,15 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/byte_reader.h"
 #include "scarf/event.h"
 
 namespace scarf {
 
-enum class WordFormat { evt2, evt3 };
-
 struct PropheseeHeader {
-  std::optional<WordFormat> format;
+  std::string_view format;  ///< a name of formats(); empty if the header does not say
   std::optional<SensorSize> sensor;
 };
 
@@ -23,6 +22,6 @@ struct PropheseeHeader {
 Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input);
 
 /// A header that names both.
-std::string prophesee_header_text(WordFormat format, SensorSize sensor);
+std::string prophesee_header_text(std::string_view format, SensorSize sensor);
 
 }  // namespace scarf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,13 +18,11 @@ inline std::string size_text(SensorSize size) {
 }
 
 /// Errors: bad_input, naming `what` says so, unless both are 1..kMaxSensorSize.
-inline Result<SensorSize> checked_sensor(int64_t width, int64_t height, std::string_view what) {
-  const auto legal = [](int64_t v) { return v >= 1 && v <= kMaxSensorSize; };
-  if (legal(width) && legal(height)) {
-    return SensorSize{static_cast<int32_t>(width), static_cast<int32_t>(height)};
-  }
-  return Error{ErrorCode::bad_input, text(what, " says ", width, "x", height, ", but a sensor has 1 to ",
-                                          kMaxSensorSize, " pixels per axis")};
-}
+Result<SensorSize> checked_sensor(int64_t width, int64_t height, std::string_view what);
+
+/// The sensor that a file and the caller agree on; nullopt if neither says. Errors: bad_input, naming both
+/// sizes if they differ; illegal_parameter if `given` is no legal size.
+Result<std::optional<SensorSize>> agreed_sensor(std::optional<SensorSize> file,
+                                                std::optional<SensorSize> given);
 
 }  // namespace scarf

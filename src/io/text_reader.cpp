@@ -1,4 +1,5 @@
-#include "io/text_reader.h"
+// Reader of text lines `t x y p`, t in seconds.
+// Source: the layout of the Event-Camera Dataset, and of E2VID with its first line `width height`.
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,10 @@
 
 #include "io/buffered_source.h"
 #include "io/decimal.h"
+#include "io/known_formats.h"
+#include "io/look_ahead.h"
+#include "io/sensor_size.h"
+#include "io/writers.h"
 
 namespace scarf {
 namespace {
@@ -129,8 +134,13 @@ BufferedSource::Decoded TextReader::decode(std::span<const uint8_t> bytes, bool 
   return {at, count, count < out.size()};
 }
 
-}  // namespace
+// What the beginning of a text recording says.
+struct TextStart {
+  std::optional<SensorSize> size;  // of the first line, if it is `width height`; as it stands, unchecked
+  size_t bytes = 0;                // up to and with that line; 0 without it
+};
 
+// The start of a text recording, or nullopt if no line of `bytes` is one. `last`: nothing follows `bytes`.
 std::optional<TextStart> find_text_start(std::span<const uint8_t> bytes, bool last) {
   const std::string_view all = as_text(bytes);
   TextStart start;
@@ -153,9 +163,37 @@ std::optional<TextStart> find_text_start(std::span<const uint8_t> bytes, bool la
   return start.size && last ? std::optional(start) : std::nullopt;
 }
 
-std::unique_ptr<EventSource> make_text_reader(ByteReader input, std::string name,
-                                              std::optional<SensorSize> sensor) {
-  return std::make_unique<TextReader>(std::move(input), std::move(name), sensor);
+Result<std::unique_ptr<EventSource>> open_text(Input input, const ReadOptions& options) {
+  // Without a start (the format was named, not recognised) every line is looked at.
+  TextStart start;
+  for (const size_t size : kLookAhead) {
+    if (const auto filled = input.bytes.fill(size); !filled) return filled.error();
+    const auto found = find_text_start(input.bytes.available(), input.bytes.ended());
+    if (!found) continue;
+    start = *found;
+    break;
+  }
+  if (start.size) {
+    const auto legal = checked_sensor(start.size->width, start.size->height, "the first line");
+    if (!legal) return legal.error();
+  }
+  const auto sensor = agreed_sensor(start.size, options.sensor);
+  if (!sensor) return sensor.error();
+  input.bytes.skip(start.bytes);
+  return std::unique_ptr<EventSource>(
+      std::make_unique<TextReader>(std::move(input.bytes), std::move(input.name), *sensor, options));
 }
+
+bool looks_like_text(const Beginning& beginning) {
+  return find_text_start(beginning.bytes, beginning.ended).has_value();
+}
+
+}  // namespace
+
+const Format kTextFormat = {.name = "text",
+                            .title = "text lines `t x y p` with t in seconds",
+                            .recognise = looks_like_text,
+                            .open = open_text,
+                            .create = create_text};
 
 }  // namespace scarf

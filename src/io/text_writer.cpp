@@ -44,8 +44,10 @@ class TextWriter final : public CheckedSink {
 
 }  // namespace
 
-std::unique_ptr<EventSink> make_text_writer(ByteWriter output, SensorSize sensor) {
-  return std::make_unique<TextWriter>(std::move(output), sensor);
+Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor) {
+  auto output = ByteWriter::create(path);
+  if (!output) return output.error();
+  return std::unique_ptr<EventSink>(std::make_unique<TextWriter>(*std::move(output), sensor));
 }
 
 }  // namespace scarf

@@ -1,15 +1,16 @@
-// The writers behind create_events, one per format.
+// The writers behind create_events.
 #pragma once
 
 #include <memory>
+#include <string>
 
-#include "io/byte_writer.h"
 #include "scarf/io.h"
 
 namespace scarf {
 
-std::unique_ptr<EventSink> make_evt2_writer(ByteWriter output, SensorSize sensor);
-std::unique_ptr<EventSink> make_evt3_writer(ByteWriter output, SensorSize sensor);
-std::unique_ptr<EventSink> make_text_writer(ByteWriter output, SensorSize sensor);
+// Each creates the file; "-" is standard output. The sensor is a legal one. Errors: io.
+Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor);
+Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor);
+Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor);
 
 }  // namespace scarf

@@ -21,7 +21,7 @@ constexpr uint32_t on(uint32_t t, uint32_t x, uint32_t y) {
 TEST(Evt2Reader, DecodesFieldsByBit) {
   // 0x1: ON, ts 0b100001 = 33, x 0b10000000001 = 1025, y 0b11111111111 = 2047.
   const auto r = read_all(evt2_file({0x80000001u, 0b0001'100001'10000000001'11111111111u, 0x00000000u}));
-  EXPECT_EQ(r.format, "EVT2");
+  EXPECT_EQ(r.format, "evt2");
   EXPECT_EQ(r.sensor, std::nullopt);
   EXPECT_THAT(r.events, ElementsAre(Event{64 + 33, 1025, 2047, 1}, Event{64, 0, 0, 0}));
 }
@@ -88,7 +88,7 @@ TEST(Evt2Reader, IsRecognisedWithoutAHeader) {
     }
   }
   const auto r = read_all(bytes);
-  EXPECT_EQ(r.format, "EVT2") << r.error;
+  EXPECT_EQ(r.format, "evt2") << r.error;
   EXPECT_EQ(r.events.size(), 100u);
   EXPECT_EQ(r.sensor, std::nullopt);
 }

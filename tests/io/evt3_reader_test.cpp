@@ -33,7 +33,7 @@ constexpr uint16_t high(unsigned t) {
 TEST(Evt3Reader, DecodesFieldsByBit) {
   // Row 0x7FF with the camera bit 11 set; x 0x401 ON, then x 2 OFF.
   const auto r = read_all(evt3_file({0x8002, 0x6003, 0x0FFF, 0x2C01, 0x2002}));
-  EXPECT_EQ(r.format, "EVT3");
+  EXPECT_EQ(r.format, "evt3");
   EXPECT_THAT(r.events, ElementsAre(Event{2 * 4096 + 3, 1025, 2047, 1}, Event{2 * 4096 + 3, 2, 2047, 0}));
 }
 
@@ -138,7 +138,7 @@ TEST(Evt3Reader, IsRecognisedWithoutAHeader) {
     }
   }
   const auto r = read_all(bytes);
-  EXPECT_EQ(r.format, "EVT3") << r.error;
+  EXPECT_EQ(r.format, "evt3") << r.error;
   EXPECT_EQ(r.events.size(), 100u);
 }
 

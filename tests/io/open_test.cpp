@@ -39,10 +39,10 @@ TEST(PropheseeHeader, FindsTheSensor) {
 
 TEST(PropheseeHeader, TheFormatComesFromFormatThenEvtThenSystem) {
   const auto format_of = [](std::string_view header) { return read_all(bytes_of(header)).format; };
-  EXPECT_EQ(format_of("% evt 2.0\n% format EVT3;height=720;width=1280\n% end\n"), "EVT3");
-  EXPECT_EQ(format_of("% evt 3.0\n% system_ID 21\n% end\n"), "EVT3");
-  EXPECT_EQ(format_of("% system_ID 48\n% end\n"), "EVT3");
-  EXPECT_EQ(format_of("% system_ID 21\n% end\n"), "EVT2");
+  EXPECT_EQ(format_of("% evt 2.0\n% format EVT3;height=720;width=1280\n% end\n"), "evt3");
+  EXPECT_EQ(format_of("% evt 3.0\n% system_ID 21\n% end\n"), "evt3");
+  EXPECT_EQ(format_of("% system_ID 48\n% end\n"), "evt3");
+  EXPECT_EQ(format_of("% system_ID 21\n% end\n"), "evt2");
 }
 
 TEST(PropheseeHeader, RefusesWhatItCannotMean) {
@@ -99,8 +99,8 @@ TEST(Open, NamesWhatItCannotRead) {
   EXPECT_THAT(error("Event Stream"), HasSubstr("Event Stream"));
   EXPECT_THAT(error(""), HasSubstr("empty"));
   const std::string what = error("what is this?");
-  EXPECT_THAT(what, AllOf(HasSubstr("test.raw"), HasSubstr("not recognised"), HasSubstr("EVT2, EVT3"),
-                          HasSubstr("t x y p")));
+  EXPECT_THAT(what, AllOf(HasSubstr("test.raw"), HasSubstr("not recognised"), HasSubstr("scarf formats"),
+                          HasSubstr("--format")));
   EXPECT_THAT(what, Not(HasSubstr("\n")));
 }
 

@@ -57,7 +57,7 @@ TEST_P(Recordings, ComeBackFromEveryWriter) {
   auto source = open_events(std::string(folder) + "/" + GetParam().path);
   ASSERT_TRUE(source.ok()) << source.error().message;
   const auto original = read_all(*std::move(source), 1 << 16);
-  for (const WriteFormat format : {WriteFormat::evt2, WriteFormat::evt3, WriteFormat::text}) {
+  for (const char* format : {"evt2", "evt3", "text"}) {
     const TemporaryFile file;
     auto sink = create_events(file.path(), format, GetParam().sensor);
     ASSERT_TRUE(sink.ok()) << sink.error().message;
@@ -72,7 +72,7 @@ TEST_P(Recordings, ComeBackFromEveryWriter) {
 INSTANTIATE_TEST_SUITE_P(
     Raw, Recordings,
     ::testing::Values(Known{"raw/hd_evt3_driving.raw",
-                            "EVT3",
+                            "evt3",
                             {1280, 720},
                             219'596,
                             115'532,
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                             {11'727'457, 1218, 572, 1},
                             "9bba5ca48301878102200069a89413a3240eaae3ff599d217f1c1a84d13fe7ba"},
                       Known{"raw/vga_evt2_sparks.raw",
-                            "EVT2",
+                            "evt2",
                             {640, 480},
                             521'252,
                             185'861,

@@ -9,14 +9,10 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr WriteFormat kFormats[] = {WriteFormat::evt2, WriteFormat::evt3, WriteFormat::text};
-
-std::string name_of(WriteFormat format) {
-  return format == WriteFormat::evt2 ? "EVT2" : format == WriteFormat::evt3 ? "EVT3" : "text";
-}
+constexpr const char* kFormats[] = {"evt2", "evt3", "text"};
 
 // Writes in batches of `batch`; the message of the first error, or "".
-std::string write_all(const std::string& path, WriteFormat format, SensorSize sensor,
+std::string write_all(const std::string& path, std::string_view format, SensorSize sensor,
                       std::span<const Event> events, size_t batch = 1 << 20) {
   auto sink = create_events(path, format, sensor);
   if (!sink) return sink.error().message;
@@ -28,14 +24,14 @@ std::string write_all(const std::string& path, WriteFormat format, SensorSize se
   return finished ? "" : finished.error().message;
 }
 
-void expect_round_trip(WriteFormat format, SensorSize sensor, const std::vector<Event>& events) {
-  SCOPED_TRACE(name_of(format));
+void expect_round_trip(std::string_view format, SensorSize sensor, const std::vector<Event>& events) {
+  SCOPED_TRACE(format);
   const TemporaryFile file;
   for (const size_t batch : {size_t{1} << 20, size_t{7}}) {
     ASSERT_EQ(write_all(file.path(), format, sensor, events, batch), "");
     const auto r = read_all(file.content());
     EXPECT_EQ(r.error, "");
-    EXPECT_EQ(r.format, name_of(format));
+    EXPECT_EQ(r.format, format);
     EXPECT_EQ(r.sensor, sensor);
     EXPECT_TRUE(r.events == events) << r.events.size() << " of " << events.size();
     EXPECT_EQ(r.report.unknown_words + r.report.outside + r.report.truncated_bytes + r.report.back_steps, 0u);
@@ -65,7 +61,7 @@ std::vector<Event> random_stream(uint32_t seed, SensorSize sensor, int64_t t, in
 }
 
 TEST(Writers, RandomStreamsComeBackIdentical) {
-  for (const WriteFormat format : kFormats) {
+  for (const std::string_view format : kFormats) {
     for (uint32_t seed = 0; seed < 8; ++seed) {
       for (const SensorSize sensor : {SensorSize{1280, 720}, SensorSize{2048, 2048}, SensorSize{31, 5},
                                       SensorSize{32, 1}, SensorSize{1, 1}, SensorSize{240, 180}}) {
@@ -76,7 +72,7 @@ TEST(Writers, RandomStreamsComeBackIdentical) {
 }
 
 TEST(Writers, LongGapsAndLateStartsComeBackIdentical) {
-  for (const WriteFormat format : kFormats) {
+  for (const std::string_view format : kFormats) {
     const SensorSize sensor{640, 480};
     for (const int64_t start :
          {int64_t{0}, (int64_t{1} << 24) - 3, int64_t{913'716'224}, (int64_t{1} << 36) - 1'000'000}) {
@@ -87,17 +83,17 @@ TEST(Writers, LongGapsAndLateStartsComeBackIdentical) {
     for (int64_t t = 0; t < int64_t{1} << 36; t = t * 2 + 1) events.push_back({t, 1, 2, 1});
     expect_round_trip(format, sensor, events);
   }
-  expect_round_trip(WriteFormat::evt2, {640, 480}, {{5, 1, 2, 1}, {(int64_t{1} << 46) - 1, 3, 4, 0}});
+  expect_round_trip("evt2", {640, 480}, {{5, 1, 2, 1}, {(int64_t{1} << 46) - 1, 3, 4, 0}});
 }
 
 TEST(Writers, AnEmptyRecordingComesBackEmpty) {
-  for (const WriteFormat format : kFormats) expect_round_trip(format, {640, 480}, {});
+  for (const std::string_view format : kFormats) expect_round_trip(format, {640, 480}, {});
 }
 
 TEST(Writers, TextHoldsEveryOrderAndNegativeTimes) {
   const std::vector<Event> events = {{-1, 1, 2, 1}, {-1'000'001, 3, 4, 0}, {(int64_t{1} << 62) - 1, 5, 6, 1}};
   const TemporaryFile file;
-  ASSERT_EQ(write_all(file.path(), WriteFormat::text, {16'384, 100}, events), "");
+  ASSERT_EQ(write_all(file.path(), "text", {16'384, 100}, events), "");
   const Bytes content = file.content();
   EXPECT_EQ(std::string(content.begin(), content.end()),
             "16384 100\n-0.000001 1 2 1\n-1.000001 3 4 0\n4611686018427.387903 5 6 1\n");
@@ -106,9 +102,7 @@ TEST(Writers, TextHoldsEveryOrderAndNegativeTimes) {
 
 TEST(Writers, Evt2WordsAreThoseOfTheFormat) {
   const TemporaryFile file;
-  ASSERT_EQ(
-      write_all(file.path(), WriteFormat::evt2, {640, 480}, std::vector<Event>{{65, 3, 2, 1}, {66, 4, 2, 0}}),
-      "");
+  ASSERT_EQ(write_all(file.path(), "evt2", {640, 480}, std::vector<Event>{{65, 3, 2, 1}, {66, 4, 2, 0}}), "");
   EXPECT_EQ(file.content(),
             with_words<uint32_t>("% evt 2.0\n% format EVT2;height=480;width=640\n% geometry 640x480\n% end\n",
                                  {0x80000001u, 0x10401802u, 0x00802002u}));
@@ -118,7 +112,7 @@ TEST(Writers, Evt3UsesVectorsForRowsOfNeighbours) {
   std::vector<Event> row;
   for (uint16_t x = 100; x < 164; ++x) row.push_back({7, x, 9, 1});
   const TemporaryFile file;
-  ASSERT_EQ(write_all(file.path(), WriteFormat::evt3, {640, 480}, row), "");
+  ASSERT_EQ(write_all(file.path(), "evt3", {640, 480}, row), "");
   EXPECT_EQ(
       file.content(),
       with_words<uint16_t>("% evt 3.0\n% format EVT3;height=480;width=640\n% geometry 640x480\n% end\n",
@@ -130,7 +124,7 @@ TEST(Writers, Evt3VectorsAtTheRightEdgeKeepThePolarityApart) {
   std::vector<Event> events;
   for (uint16_t x = 2016; x < 2048; ++x) events.push_back({0, x, 0, 0});
   for (uint16_t x = 0; x < 32; ++x) events.push_back({0, x, 0, 1});
-  expect_round_trip(WriteFormat::evt3, {2048, 10}, events);
+  expect_round_trip("evt3", {2048, 10}, events);
 }
 
 TEST(Writers, RefuseWhatTheFormatCannotHold) {
@@ -151,32 +145,30 @@ TEST(Writers, RefuseWhatTheFormatCannotHold) {
       {{int64_t{1} << 62, 0, 0, 1}, "shift the times", false},
       {{-(int64_t{1} << 62), 0, 0, 1}, "shift the times", false},
   };
-  for (const WriteFormat format : kFormats) {
+  for (const std::string_view format : kFormats) {
     for (const auto& c : cases) {
       const TemporaryFile file;
       const std::string error =
           write_all(file.path(), format, sensor, std::vector<Event>{{100, 5, 6, 1}, c.event});
-      if (format == WriteFormat::text && c.text_holds_it) {
+      if (format == "text" && c.text_holds_it) {
         EXPECT_EQ(error, "");
       } else {
         EXPECT_THAT(error, AllOf(HasSubstr(file.path()), HasSubstr("event 1 "), HasSubstr(c.reason),
-                                 HasSubstr(name_of(format))));
+                                 HasSubstr(format)));
       }
     }
   }
   const TemporaryFile file;
-  EXPECT_THAT(
-      write_all(file.path(), WriteFormat::evt3, sensor, std::vector<Event>{{int64_t{1} << 36, 0, 0, 1}}),
-      HasSubstr("shift the times"));
+  EXPECT_THAT(write_all(file.path(), "evt3", sensor, std::vector<Event>{{int64_t{1} << 36, 0, 0, 1}}),
+              HasSubstr("shift the times"));
 }
 
 TEST(Writers, CreationErrors) {
-  EXPECT_THAT(write_all("/nonexistent/a.raw", WriteFormat::evt2, {640, 480}, {}),
-              HasSubstr("/nonexistent/a.raw"));
+  EXPECT_THAT(write_all("/nonexistent/a.raw", "evt2", {640, 480}, {}), HasSubstr("/nonexistent/a.raw"));
   const TemporaryFile file;
-  EXPECT_THAT(write_all(file.path(), WriteFormat::evt2, {0, 480}, {}), HasSubstr("0x480"));
+  EXPECT_THAT(write_all(file.path(), "evt2", {0, 480}, {}), HasSubstr("0x480"));
   EXPECT_FALSE(std::filesystem::exists(file.path()));
-  EXPECT_THAT(write_all("/dev/full", WriteFormat::text, {640, 480}, {}), HasSubstr("cannot write"));
+  EXPECT_THAT(write_all("/dev/full", "text", {640, 480}, {}), HasSubstr("cannot write"));
 }
 
 TEST(Writers, AFileAppearsWhenItIsFinished) {
@@ -184,14 +176,14 @@ TEST(Writers, AFileAppearsWhenItIsFinished) {
   std::filesystem::remove(file.path());
   const std::vector<Event> events = {{1, 2, 3, 1}};
   {
-    auto abandoned = *create_events(file.path(), WriteFormat::evt2, {640, 480});
+    auto abandoned = *create_events(file.path(), "evt2", {640, 480});
     ASSERT_TRUE(abandoned->write(events).ok());
   }
   EXPECT_FALSE(std::filesystem::exists(file.path()));
 
   std::ofstream(file.path()) << "earlier";
   {
-    auto refused = *create_events(file.path(), WriteFormat::evt2, {640, 480});
+    auto refused = *create_events(file.path(), "evt2", {640, 480});
     ASSERT_FALSE(refused->write(std::vector<Event>{{1, 640, 3, 1}}).ok());
   }
   EXPECT_EQ(file.content(), bytes_of("earlier"));
@@ -200,7 +192,7 @@ TEST(Writers, AFileAppearsWhenItIsFinished) {
   const std::string link = file.path() + "_link";
   std::filesystem::remove(link);
   std::filesystem::create_symlink(file.path(), link);
-  EXPECT_EQ(write_all(link, WriteFormat::text, {640, 480}, events), "");
+  EXPECT_EQ(write_all(link, "text", {640, 480}, events), "");
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(file.content(), bytes_of("640 480\n0.000001 2 3 1\n"));
   std::filesystem::remove(link);
@@ -208,7 +200,7 @@ TEST(Writers, AFileAppearsWhenItIsFinished) {
 
 TEST(Writers, AFinishedSinkRefusesMore) {
   const TemporaryFile file;
-  auto sink = create_events(file.path(), WriteFormat::text, {640, 480});
+  auto sink = create_events(file.path(), "text", {640, 480});
   ASSERT_TRUE((*sink)->finish().ok());
   EXPECT_FALSE((*sink)->finish().ok());
 }

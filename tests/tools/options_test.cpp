@@ -47,7 +47,7 @@ TEST(StreamOptions, DefaultsAreThePaper) {
   EXPECT_EQ(options.file, "recording");
   EXPECT_EQ(*grid_on(options, kSensor), *make_geometry(Preset::paper, kSensor));
   EXPECT_EQ(options.accumulation, 0.3);
-  EXPECT_FALSE(options.sensor.has_value());
+  EXPECT_FALSE(options.read.sensor.has_value());
   EXPECT_FALSE(options.cpu);
   EXPECT_EQ(BatchSizes(options.batches).next(), kDefaultBatch);
 }
@@ -58,7 +58,7 @@ TEST(StreamOptions, PresetsTakeTheirParameters) {
   EXPECT_EQ(*grid_on(options, kSensor),
             *make_geometry(Preset::event_driven_flex, kSensor, {.cell = 12, .ratio = 1.5, .alpha = 3.0}));
   EXPECT_EQ(options.accumulation, 0.25);
-  EXPECT_EQ(options.sensor, (SensorSize{320, 240}));
+  EXPECT_EQ(options.read.sensor, (SensorSize{320, 240}));
 }
 
 TEST(StreamOptions, ExplicitTakesAllThirteenIntegers) {

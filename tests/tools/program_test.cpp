@@ -55,7 +55,7 @@ class Program : public testing::Test {
   // A recording of random events, and its path.
   std::string recording(size_t count = 20'000) {
     events_ = random_events(count, kSensor);
-    auto sink = *create_events(path("recording.txt"), WriteFormat::text, kSensor);
+    auto sink = *create_events(path("recording.txt"), "text", kSensor);
     EXPECT_TRUE(sink->write(events_).ok());
     EXPECT_TRUE(sink->finish().ok());
     return path("recording.txt");
@@ -397,7 +397,7 @@ TEST_F(Program, SimulatesTheSameInEveryFormat) {
   const std::string events = events_in(path("a.raw"));
   EXPECT_THAT(events, StartsWith("\nevents "));
   for (const char* name : {"a.evt2", "a.txt", "a.csv"}) EXPECT_EQ(events_in(path(name)), events) << name;
-  for (const auto& [name, format] : {std::pair{"a.raw", "EVT3"}, {"a.evt2", "EVT2"}, {"a.txt", "text"}}) {
+  for (const auto& [name, format] : {std::pair{"a.raw", "evt3"}, {"a.evt2", "evt2"}, {"a.txt", "text"}}) {
     const std::string out = run("info " + path(name)).out;
     EXPECT_THAT(out, StartsWith(text("format:            ", format, "\n"))) << name;
     EXPECT_THAT(out, HasSubstr("\nsensor:            64x48\n")) << name;

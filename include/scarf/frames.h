@@ -1,0 +1,52 @@
+// What some recordings hold beside events: greyscale frames and external triggers.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "scarf/image.h"
+#include "scarf/io.h"
+#include "scarf/result.h"
+
+namespace scarf {
+
+/// A frame of the camera. Times in microseconds, on the clock of the events.
+struct GreyFrame {
+  int64_t t = 0;               ///< the frame's own time stamp
+  int64_t exposure_begin = 0;  ///< equal to t where the file does not say
+  int64_t exposure_end = 0;
+  Image<uint8_t> image;  ///< one plane; colour is turned into grey
+};
+
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  /// The next frame in file order; nullopt at the end.
+  virtual Result<std::optional<GreyFrame>> read() = 0;
+};
+
+/// An edge at the camera's trigger input.
+struct Trigger {
+  int64_t t = 0;      ///< microseconds, on the clock of the events
+  uint16_t id = 0;    ///< the input
+  uint8_t value = 0;  ///< 1: rising, 0: falling
+
+  friend bool operator==(const Trigger&, const Trigger&) = default;
+};
+
+class TriggerSource {
+ public:
+  virtual ~TriggerSource() = default;
+  /// Reads up to out.size() triggers (at least 1) in file order; 0 means the end.
+  virtual Result<size_t> read(std::span<Trigger> out) = 0;
+};
+
+/// As open_events, for what accompanies the events. Errors: also bad_input, if the format has none.
+Result<std::unique_ptr<FrameSource>> open_frames(const std::string& path, const ReadOptions& options = {});
+Result<std::unique_ptr<TriggerSource>> open_triggers(const std::string& path,
+                                                     const ReadOptions& options = {});
+
+}  // namespace scarf

@@ -1,0 +1,131 @@
+#include "io/event_tally.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/text.h"
+#include "io/sensor_size.h"
+
+namespace scarf {
+
+EventTally::EventTally(std::optional<SensorSize> sensor, const ReadOptions& options)
+    : sensor_(sensor),
+      time_policy_(options.time_policy),
+      out_of_sensor_(options.out_of_sensor),
+      time_shift_(options.time_shift),
+      strict_(options.strict) {
+  constexpr int32_t kEverything = std::numeric_limits<uint16_t>::max() + 1;
+  limit_ = sensor.value_or(SensorSize{kEverything, kEverything});
+}
+
+size_t EventTally::keep(std::span<Event> events) {
+  if (failure_) return 0;
+  const bool plain = time_policy_ == TimePolicy::keep && out_of_sensor_ == OutOfSensor::drop &&
+                     time_shift_ == TimeShift::none;
+  const size_t kept = plain ? keep_plainly(events) : keep_by_policy(events);
+  report.events += kept;
+  return kept;
+}
+
+size_t EventTally::keep_plainly(std::span<Event> events) {
+  size_t kept = 0;
+  for (const Event e : events) {
+    if (e.t < previous_) [[unlikely]]
+      count_back_step(e.t);
+    previous_ = e.t;
+    events[kept] = e;
+    kept += limit_.contains(e) ? 1 : 0;
+  }
+  report.outside += events.size() - kept;
+  return kept;
+}
+
+size_t EventTally::keep_by_policy(std::span<Event> events) {
+  size_t kept = 0;
+  for (Event e : events) {
+    const bool inside = limit_.contains(e);
+    if (!inside && out_of_sensor_ == OutOfSensor::error) {
+      fail({ErrorCode::bad_input,
+            text("event ", report.events + report.outside + report.dropped + kept, " (t ", e.t, ", x ", e.x,
+                 ", y ", e.y, ") is outside the sensor of ", size_text(limit_),
+                 "; correct --geometry, or use --out-of-sensor drop")});
+      break;
+    }
+    if (!in_order(e)) {
+      if (failure_) break;
+      ++report.dropped;
+      continue;
+    }
+    if (!inside) {
+      ++report.outside;
+      continue;
+    }
+    if (time_shift_ == TimeShift::first_event && !shift_) shift_ = e.t;
+    e.t -= shift_.value_or(0);
+    events[kept++] = e;
+  }
+  return kept;
+}
+
+// Whether the time policy lets the event pass, perhaps with another time.
+bool EventTally::in_order(Event& e) {
+  if (e.t >= previous_) {
+    previous_ = e.t;
+    return true;
+  }
+  count_back_step(e.t);
+  switch (time_policy_) {
+    case TimePolicy::keep:
+      previous_ = e.t;
+      return true;
+    case TimePolicy::clamp:
+      e.t = previous_;
+      return true;
+    case TimePolicy::drop:
+      return false;
+    case TimePolicy::error:
+      break;
+  }
+  fail({ErrorCode::bad_input, text("an event at ", e.t, " us follows one at ", previous_,
+                                   " us; use --time-policy keep, clamp or drop")});
+  return false;
+}
+
+void EventTally::drop(int64_t t) {
+  if (failure_) return;
+  if (out_of_sensor_ == OutOfSensor::error) {
+    fail({ErrorCode::bad_input,
+          text("an event at ", t, " us has a coordinate that no sensor has; use --out-of-sensor drop")});
+    return;
+  }
+  Event e;
+  e.t = t;
+  if (in_order(e))
+    ++report.outside;
+  else if (!failure_)
+    ++report.dropped;
+}
+
+void EventTally::set_first_high(int64_t t) {
+  if (time_shift_ == TimeShift::first_high && !shift_) shift_ = t;
+}
+
+void EventTally::note_damage(uint64_t byte, std::string what) {
+  if (strict_)
+    fail({ErrorCode::bad_input, text("byte ", byte, ": ", what, "; leave out --strict to read the rest")});
+  ++report.damages;
+  if (!report.damage) report.damage = Damage{byte, std::move(what)};
+}
+
+void EventTally::fail(Error error) {
+  if (!failure_) failure_ = std::move(error);
+}
+
+void EventTally::count_back_step(int64_t t) {
+  // Unsigned: the distance of two hostile times may not fit a signed difference.
+  const auto step = static_cast<int64_t>(static_cast<uint64_t>(previous_) - static_cast<uint64_t>(t));
+  ++report.back_steps;
+  report.largest_back_step = std::max(report.largest_back_step, step);
+}
+
+}  // namespace scarf

@@ -1,0 +1,70 @@
+// The list of all formats, and what can be asked of it.
+#include <utility>
+
+#include "core/text.h"
+#include "io/format.h"
+#include "io/known_formats.h"
+#include "io/sensor_size.h"
+
+namespace scarf {
+namespace {
+
+// Recognised in this order: signatures first, then what is guessed from many bytes.
+constexpr const Format* kFormats[] = {
+    &kTextFormat,
+    &kEvt2Format,
+    &kEvt3Format,
+};
+
+std::string names(bool (*wanted)(const Format&)) {
+  std::string list;
+  for (const Format* format : kFormats) {
+    if (wanted(*format)) list += text(list.empty() ? "" : ", ", format->name);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::span<const Format* const> all_formats() {
+  return kFormats;
+}
+
+Result<const Format*> find_format(std::string_view name) {
+  for (const Format* format : kFormats) {
+    if (format->name == name) return format;
+  }
+  return Error{ErrorCode::illegal_parameter, text("the format '", name, "' is unknown; there are ",
+                                                  names([](const Format&) { return true; }))};
+}
+
+Result<void> require_path(const Input& input, std::string_view title) {
+  if (!input.path.empty()) return {};
+  return Error{ErrorCode::bad_input,
+               text(title, " cannot be read from a pipe; write it to a file first, and name that")};
+}
+
+std::vector<FormatInfo> formats() {
+  std::vector<FormatInfo> list;
+  for (const Format* format : kFormats) {
+    list.push_back({std::string(format->name), std::string(format->title), std::string(format->missing),
+                    format->recognise != nullptr, format->create != nullptr});
+  }
+  return list;
+}
+
+Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view name,
+                                                 SensorSize sensor) {
+  const auto format = find_format(name);
+  if (!format) return format.error();
+  if ((*format)->create == nullptr) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("scarf does not write ", name, "; it writes ",
+                      names([](const Format& f) { return f.create != nullptr; }))};
+  }
+  const auto legal = checked_sensor(sensor.width, sensor.height, text(path, ": the sensor size given"));
+  if (!legal) return Error{ErrorCode::illegal_parameter, legal.error().message};
+  return (*format)->create(path, sensor);
+}
+
+}  // namespace scarf

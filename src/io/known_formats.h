@@ -1,0 +1,12 @@
+// The formats, each defined beside its reader.
+#pragma once
+
+#include "io/format.h"
+
+namespace scarf {
+
+extern const Format kEvt2Format;
+extern const Format kEvt3Format;
+extern const Format kTextFormat;
+
+}  // namespace scarf
