@@ -15,7 +15,7 @@ constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt2::kTimeHighB
 class Evt2Writer final : public CheckedSink {
  public:
   Evt2Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"EVT2", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
+      : CheckedSink(std::move(output), sensor, {"evt2", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
     output_.append(prophesee_header_text("evt2", sensor));
   }
 

@@ -20,7 +20,7 @@ constexpr size_t kFewestInVector = 5;  // of 4 words
 class Evt3Writer final : public CheckedSink {
  public:
   Evt3Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"EVT3", 0, kTimeEnd, false, evt3::kCoordinateMask}),
+      : CheckedSink(std::move(output), sensor, {"evt3", 0, kTimeEnd, false, evt3::kCoordinateMask}),
         last_base_(std::min<int32_t>(sensor.width, evt3::kCoordinateMask + 1) - kVectorLength) {
     output_.append(prophesee_header_text("evt3", sensor));
   }

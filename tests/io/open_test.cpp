@@ -104,14 +104,15 @@ TEST(Open, NamesWhatItCannotRead) {
   EXPECT_THAT(what, Not(HasSubstr("\n")));
 }
 
-TEST(Open, AMissingFileOrAFolderIsAnIoError) {
+TEST(Open, AMissingFileIsAnIoErrorAndAnyFolderNoRecording) {
   const auto missing = open_events("/nonexistent/events.raw");
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().code, ErrorCode::io);
   EXPECT_THAT(missing.error().message, HasSubstr("/nonexistent/events.raw"));
   const auto folder = open_events("/");
   ASSERT_FALSE(folder.ok());
-  EXPECT_EQ(folder.error().code, ErrorCode::io);
+  EXPECT_EQ(folder.error().code, ErrorCode::bad_input);
+  EXPECT_THAT(folder.error().message, HasSubstr("folder"));
 }
 
 TEST(Open, RequireSensorAsksForTheOption) {
