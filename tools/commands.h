@@ -23,6 +23,8 @@ struct Command {
 //   app->callback([&command, options] { command.run = [options] { return digest(*options); }; });
 void add_bench(CLI::App& program, Command& command);
 void add_compare(CLI::App& program, Command& command);
+void add_convert(CLI::App& program, Command& command);
+void add_cut(CLI::App& program, Command& command);
 void add_devices(CLI::App& program, Command& command);
 void add_digest(CLI::App& program, Command& command);
 void add_formats(CLI::App& program, Command& command);

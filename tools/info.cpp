@@ -1,7 +1,9 @@
 // scarf info: what is in a recording.
 #include <iomanip>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "core/text.h"
 #include "scarf/digest.h"
@@ -17,17 +19,38 @@ struct InfoOptions {
   std::string file;
   ReadOptions read;
   bool digest = false;
+  bool json = false;
 };
 
-void line(const std::string& name, const std::string& value) {
-  std::cout << std::left << std::setw(19) << name + ":" << value << "\n";
+// What is told of a recording: a name for people, one for programs, a value.
+struct Fact {
+  std::string name;
+  std::string key;
+  nlohmann::ordered_json value;  // null: not known
+  std::string unit = {};
+};
+
+void print_table(const std::vector<Fact>& facts) {
+  for (const Fact& fact : facts) {
+    const std::string value = fact.value.is_null()     ? "unknown"
+                              : fact.value.is_string() ? fact.value.get<std::string>()
+                                                       : fact.value.dump();
+    std::cout << std::left << std::setw(19) << fact.name + ":" << value
+              << (fact.value.is_null() ? "" : fact.unit) << "\n";
+  }
 }
 
-// Events per second, rounded; "unknown" if no time passes between the first and the last event.
-std::string mean_rate(uint64_t events, int64_t duration) {
-  if (duration <= 0) return "unknown";
-  return text(static_cast<uint64_t>(static_cast<double>(events) * 1e6 / static_cast<double>(duration) + 0.5),
-              " ev/s");
+void print_json(const std::vector<Fact>& facts) {
+  nlohmann::ordered_json all;
+  for (const Fact& fact : facts) all[fact.key] = fact.value;
+  // Names of files and packets may hold any bytes.
+  std::cout << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+}
+
+// Events per second, rounded; null if no time passes between the first and the last event.
+nlohmann::ordered_json mean_rate(uint64_t events, int64_t duration) {
+  if (duration <= 0) return nullptr;
+  return static_cast<uint64_t>(static_cast<double>(events) * 1e6 / static_cast<double>(duration) + 0.5);
 }
 
 Result<int> info(const InfoOptions& options) {
@@ -56,28 +79,36 @@ Result<int> info(const InfoOptions& options) {
 
   const ReadReport& report = (*source)->report();
   const auto sensor = (*source)->sensor();
-  line("format", std::string((*source)->format()));
-  line("sensor", sensor ? text(sensor->width, "x", sensor->height) : "unknown");
-  line("events", text(report.events));
-  line("on", text(on));
-  line("off", text(report.events - on));
-  line("first", first ? text(*first, " us") : "none");
-  line("last", first ? text(last, " us") : "none");
   // Unsigned, because hostile times may lie further apart than a signed number reaches.
   const auto duration =
       static_cast<int64_t>(static_cast<uint64_t>(last) - static_cast<uint64_t>(first.value_or(last)));
-  line("duration", text(duration, " us"));
-  line("mean rate", mean_rate(report.events, duration));
-  line("outside", text(report.outside));
-  line("back-steps", text(report.back_steps));
-  line("largest back-step", text(report.largest_back_step, " us"));
-  line("dropped", text(report.dropped));
-  line("gaps", text(report.gaps));
-  line("unknown words", text(report.unknown_words));
-  line("truncated bytes", text(report.truncated_bytes));
-  line("damaged places", text(report.damages));
-  if (report.damage) line("first damage", text("byte ", report.damage->byte, ": ", report.damage->what));
-  if (options.digest) std::cout << "events " << digest.hex() << "\n";
+  using Json = nlohmann::ordered_json;
+  std::vector<Fact> facts = {
+      {"format", "format", std::string((*source)->format())},
+      {"sensor", "sensor", sensor ? Json(text(sensor->width, "x", sensor->height)) : Json()},
+      {"events", "events", report.events},
+      {"on", "on", on},
+      {"off", "off", report.events - on},
+      {"first", "first_us", first ? Json(*first) : Json(), " us"},
+      {"last", "last_us", first ? Json(last) : Json(), " us"},
+      {"duration", "duration_us", duration, " us"},
+      {"mean rate", "events_per_second", mean_rate(report.events, duration), " ev/s"},
+      {"outside", "outside", report.outside},
+      {"back-steps", "back_steps", report.back_steps},
+      {"largest back-step", "largest_back_step_us", report.largest_back_step, " us"},
+      {"dropped", "dropped", report.dropped},
+      {"gaps", "gaps", report.gaps},
+      {"unknown words", "unknown_words", report.unknown_words},
+      {"truncated bytes", "truncated_bytes", report.truncated_bytes},
+      {"damaged places", "damages", report.damages},
+  };
+  if (report.damage) {
+    facts.push_back(
+        {"first damage", "first_damage", text("byte ", report.damage->byte, ": ", report.damage->what)});
+  }
+  if (options.json && options.digest) facts.push_back({"events digest", "digest", digest.hex()});
+  options.json ? print_json(facts) : print_table(facts);
+  if (options.digest && !options.json) std::cout << "events " << digest.hex() << "\n";
   return 0;
 }
 
@@ -89,6 +120,7 @@ void add_info(CLI::App& program, Command& command) {
   app->add_option("file", options->file, "Recording; - is standard input")->required();
   add_read_options(*app, options->read);
   app->add_flag("--digest", options->digest, "Also the SHA-256 of the decoded events");
+  app->add_flag("--json", options->json, "As JSON");
   app->callback([&command, options] { command.run = [options] { return info(*options); }; });
 }
 

@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
   scarf::tools::Command command;
   scarf::tools::add_formats(program, command);
   scarf::tools::add_info(program, command);
+  scarf::tools::add_convert(program, command);
+  scarf::tools::add_cut(program, command);
   scarf::tools::add_render(program, command);
   scarf::tools::add_representations(program, command);
   scarf::tools::add_digest(program, command);

@@ -29,7 +29,7 @@ Result<std::string> output_format(const std::string& path, const std::string& gi
   }
   return Error{
       ErrorCode::illegal_parameter,
-      text("the format of ", path, " does not follow from its name; add --format, or end the name in ",
+      text("the format of ", path, " does not follow from its name; add --output-format, or end the name in ",
            output_extensions())};
 }
 

@@ -92,7 +92,8 @@ void add_simulate(CLI::App& program, Command& command) {
          "output", options->output,
          "Recording to write, in the format of its name (" + output_extensions() + "); - is standard output")
       ->required();
-  app->add_option("--format", options->format, "Format, where the name does not tell; see scarf formats");
+  app->add_option("--output-format,--format", options->format,
+                  "Format, where the name does not tell; see scarf formats");
   std::string scenes;
   for (const auto name : scene_names()) scenes += (scenes.empty() ? "" : ", ") + std::string(name);
   app->add_option("--scene", o.scene, scenes)->capture_default_str();

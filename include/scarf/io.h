@@ -99,6 +99,8 @@ struct FormatInfo {
   std::string missing;      ///< empty, or the library without which this build cannot read it
   bool recognised = false;  ///< by content; else ReadOptions::format must name it
   bool written = false;     ///< create_events can make it
+  bool frames = false;      ///< its recordings may hold frames ...
+  bool triggers = false;    ///< ... and triggers, see frames.h
 };
 
 /// All formats, those that are not built in included.

@@ -48,7 +48,7 @@ std::vector<FormatInfo> formats() {
   std::vector<FormatInfo> list;
   for (const Format* format : kFormats) {
     list.push_back({std::string(format->name), std::string(format->title), std::string(format->missing),
-                    format->recognise != nullptr, format->create != nullptr});
+                    format->recognise != nullptr || format->prophesee, format->create != nullptr, format->open_frames != nullptr, format->open_triggers != nullptr});
   }
   return list;
 }

@@ -1,0 +1,53 @@
+// scarf convert: a recording in another format.
+#include <iostream>
+
+#include "core/text.h"
+#include "tools/commands.h"
+#include "tools/options.h"
+#include "tools/output_format.h"
+#include "tools/read_options.h"
+#include "tools/recording_copy.h"
+
+namespace scarf::tools {
+namespace {
+
+struct ConvertOptions {
+  std::string file;
+  ReadOptions read;
+  CopyTarget target;
+};
+
+Result<int> convert(const ConvertOptions& options) {
+  const auto source = open_events(options.file, options.read);
+  if (!source) return source.error();
+  const auto sensor = require_sensor(**source, options.file);
+  if (!sensor) return sensor.error();
+  const auto copied = copy_recording(
+      **source, [](Event&) { return true; }, *sensor, options.target);
+  if (!copied) return copied.error();
+  const ReadReport& report = (*source)->report();
+  std::string changed;
+  if (options.read.time_policy == TimePolicy::clamp && report.back_steps > 0) {
+    changed += text("changed: ", report.back_steps, " times of back-steps\n");
+  }
+  if (options.read.time_shift != TimeShift::none) changed += "changed: all times, by --time-shift\n";
+  const std::string lost = losses(**source);
+  remarks(options.target) << text("converted ", copied->events, " events from ", (*source)->format(), " to ",
+                                  copied->format, options.target.check ? ", checked" : "", "\n", changed,
+                                  lost, changed.empty() && lost.empty() ? "lossless\n" : "", "events ",
+                                  copied->digest, "\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program, Command& command) {
+  CLI::App* app = program.add_subcommand("convert", "A recording in another format");
+  auto options = std::make_shared<ConvertOptions>();
+  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_copy_target(*app, options->target);
+  add_read_options(*app, options->read);
+  app->callback([&command, options] { command.run = [options] { return convert(*options); }; });
+}
+
+}  // namespace scarf::tools
