@@ -119,6 +119,12 @@ struct TonePush {
   uint levels_4_to_7;
 };
 
+// ceiling_*: measurements of a device.
+struct CeilingPush {
+  uint invocations;
+  uint address_bits;  // atomic: the table has 1 << address_bits words, at most 1 << 31
+};
+
 #ifdef __cplusplus
 }  // namespace scarf::layout
 #endif

@@ -15,7 +15,8 @@ Result<int> bench(const BenchOptions& options) {
   return Error{ErrorCode::device,
                "this is a debug build, whose times mean nothing; build with the release preset"};
 #endif
-  return options.paper ? bench_paper(options) : bench_scenes(options);
+  if (options.paper) return bench_paper(options);
+  return options.offload ? bench_offload(options) : bench_scenes(options);
 }
 
 // The parameters of all representations, each name once.
@@ -52,6 +53,12 @@ void add_bench(CLI::App& program, Command& command) {
           ->check(CLI::IsMember(names));
   add_parameter_options(*app, *options, representation);
 
+  app->add_flag(
+         "--offload", options->offload,
+         "What the device does for a host with very many events: throughput with images back, kernel time "
+         "and latency, beside what it can copy")
+      ->excludes(stages)
+      ->excludes(representation);
   const std::string costs = "The paper's costs";
   CLI::Option* paper = app->add_flag("--paper", options->paper,
                                      "Time per event and per query of every representation, and throughput "

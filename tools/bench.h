@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/ceilings.h"
 #include "scarf/gpu.h"
 #include "scarf/parameters.h"
 
@@ -16,6 +17,7 @@ struct BenchOptions {
   bool quick = false;
   bool stages = false;
   bool paper = false;
+  bool offload = false;
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
@@ -25,9 +27,13 @@ struct BenchOptions {
   DeviceOptions device;
 };
 
+void print_ceilings(const bench::Ceilings& ceilings);
+
 /// The device beside the reference on synthetic scenes: pushes with an image after each. Returns the exit
 /// code.
 Result<int> bench_scenes(const BenchOptions& options);
+/// Throughput, kernel time and latency of a device that a host hands its stream to. Returns the exit code.
+Result<int> bench_offload(const BenchOptions& options);
 /// The paper's cost table and figure for every representation. Returns the exit code.
 Result<int> bench_paper(const BenchOptions& options);
 
