@@ -63,14 +63,16 @@ int main(int argc, char** argv) {
   scarf::tools::add_info(program, command);
   scarf::tools::add_convert(program, command);
   scarf::tools::add_cut(program, command);
-  scarf::tools::add_render(program, command);
   scarf::tools::add_representations(program, command);
   scarf::tools::add_digest(program, command);
   scarf::tools::add_compare(program, command);
   scarf::tools::add_verify(program, command);
   scarf::tools::add_devices(program, command);
-  scarf::tools::add_simulate(program, command);
   scarf::tools::add_bench(program, command);
+#ifdef SCARF_PICTURES
+  scarf::tools::add_render(program, command);
+  scarf::tools::add_simulate(program, command);
+#endif
 
   try {  // CLI11 and OpenCV throw
     program.parse(argc, argv);
