@@ -36,9 +36,9 @@ scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.
 scarf_component(scarf_vulkan)
 scarf_component(scarf_gpu HEADERS gpu.h gpu_encoding.h)
 scarf_component(scarf_cpu_ref HEADERS reference.h)
-scarf_component(scarf_io HEADERS frames.h io.h)
 scarf_component(scarf_simulate HEADERS simulate.h)
-# A set of its own: only who asks for this component needs OpenSSL.
+# Sets of their own: only who asks for these components needs their libraries.
+scarf_component(scarf_io EXPORT scarfIoTargets HEADERS frames.h io.h)
 scarf_component(scarf_digest EXPORT scarfDigestTargets HEADERS digest.h)
 
 file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include/scarf" "${PROJECT_SOURCE_DIR}/include/scarf/*.h")
@@ -49,6 +49,12 @@ endif()
 
 
 install(EXPORT scarfTargets NAMESPACE scarf:: DESTINATION "${package_folder}")
+if(TARGET scarf_io)
+  install(EXPORT scarfIoTargets NAMESPACE scarf:: DESTINATION "${package_folder}")
+  foreach(package IN LISTS SCARF_IO_PACKAGES)
+    install(FILES "${PROJECT_SOURCE_DIR}/cmake/Find${package}.cmake" DESTINATION "${package_folder}")
+  endforeach()
+endif()
 if(TARGET scarf_digest)
   install(EXPORT scarfDigestTargets NAMESPACE scarf:: DESTINATION "${package_folder}")
 endif()

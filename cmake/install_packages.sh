@@ -7,6 +7,7 @@ packages=(
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
   libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
+  libhdf5-dev hdf5-filter-plugin-blosc-serial hdf5-plugin-lzf hdf5-filter-plugin python3-h5py python3-numpy
 )
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

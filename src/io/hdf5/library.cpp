@@ -1,0 +1,44 @@
+#include "io/hdf5/library.h"
+
+#include "core/text.h"
+
+namespace scarf::hdf5 {
+namespace {
+
+// Keeps the innermost description: the walk goes from the call outwards.
+herr_t keep_description(unsigned, const H5E_error2_t* entry, void* kept) {
+  if (entry->desc != nullptr) *static_cast<std::string*>(kept) = entry->desc;
+  return 0;
+}
+
+}  // namespace
+
+Error error_of(ErrorCode code, const std::string& what) {
+  std::string why;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &why);
+  for (char& c : why) c = c == '\n' ? ' ' : c;
+  return {code, why.empty() ? what : text(what, ": libhdf5 says: ", why)};
+}
+
+Result<Handle> open_file(const std::string& path) {
+  const Silence silence;
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (!file) return error_of(ErrorCode::bad_input, "cannot be opened as HDF5");
+  return file;
+}
+
+Result<Handle> create_file(const std::string& path) {
+  const Silence silence;
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  if (!file) return error_of(ErrorCode::io, text(path, ": cannot create"));
+  return file;
+}
+
+Result<void> close_file(Handle& file) {
+  const Silence silence;
+  if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0 || !file.close())
+    return error_of(ErrorCode::io, "cannot write");
+  return {};
+}
+
+}  // namespace scarf::hdf5

@@ -1,0 +1,62 @@
+// libhdf5 with owners for what it opens, and its errors as values.
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+
+#include "scarf/result.h"
+
+namespace scarf::hdf5 {
+
+/// Owns anything that libhdf5 has opened: a file, a dataset, a type, a property list.
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(hid_t id) : id_(id) {}
+  ~Handle() { close(); }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    if (this != &other) close(), id_ = std::exchange(other.id_, H5I_INVALID_HID);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+
+  explicit operator bool() const { return id_ >= 0; }
+  hid_t id() const { return id_; }
+  /// Whether that went well; files and datasets may write while they are closed.
+  bool close() { return id_ < 0 || H5Idec_ref(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
+
+ private:
+  hid_t id_ = H5I_INVALID_HID;
+};
+
+/// While one lives, libhdf5 prints nothing. What calls libhdf5 has one.
+class Silence {
+ public:
+  Silence() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// `what`, and why libhdf5's last call failed.
+Error error_of(ErrorCode code, const std::string& what);
+
+/// Opens a file for reading. Errors: bad_input.
+Result<Handle> open_file(const std::string& path);
+/// Creates or replaces a file that every libhdf5 since 1.8 reads. Errors: io.
+Result<Handle> create_file(const std::string& path);
+/// Writes out and closes a file whose datasets are closed. Errors: io, also for a disk that is full.
+Result<void> close_file(Handle& file);
+
+}  // namespace scarf::hdf5
