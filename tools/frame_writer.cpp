@@ -5,12 +5,16 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
+#include <optional>
+#include <span>
 #include <system_error>
 #include <utility>
 
 #include "core/text.h"
 #include "io/atomic_file.h"
 #include "tools/files.h"
+#include "tools/hdf5_writer.h"
+#include "tools/npy_file.h"
 #include "tools/pictures.h"
 
 namespace scarf::tools {
@@ -19,13 +23,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kFrame = "frame";
+constexpr std::string_view kListHeader = "index,t_us,events\n";
+
+std::string list_line(uint64_t index, const Frame& frame) {
+  return text(index, ",", frame.t, ",", frame.events, "\n");
+}
+
+Error no_frame(const std::string& path) {
+  return {ErrorCode::bad_input,
+          text("no frame was due, so ", path, " was not written; use a higher --rate, or --at end")};
+}
 
 class FolderWriter final : public FrameWriter {
  public:
   explicit FolderWriter(fs::path folder) : folder_(std::move(folder)) {}
 
   Result<void> write(const Frame& frame, const cv::Mat& picture) override {
-    list_ += text(index_, ",", frame.t, ",", frame.events, "\n");
+    list_ += list_line(index_, frame);
     return write_picture((folder_ / numbered_picture(kFrame, index_++)).string(), picture);
   }
 
@@ -34,7 +48,7 @@ class FolderWriter final : public FrameWriter {
  private:
   const fs::path folder_;
   uint64_t index_ = 0;
-  std::string list_ = "index,t_us,events\n";
+  std::string list_{kListHeader};
 };
 
 class ImageWriter final : public FrameWriter {
@@ -71,10 +85,7 @@ class VideoFileWriter final : public FrameWriter {
   }
 
   Result<void> finish() override {
-    if (frames_ == 0) {
-      return Error{ErrorCode::bad_input, text("no frame was due, so ", path_,
-                                              " was not written; use a higher --rate, or --at end")};
-    }
+    if (frames_ == 0) return no_frame(path_);
     video_.release();
     // The encoder does not tell of a full disk, but then the file cannot be read back.
     cv::VideoCapture written(file_.name());
@@ -101,6 +112,66 @@ class VideoFileWriter final : public FrameWriter {
   uint64_t frames_ = 0;
 };
 
+// Pictures as rows of numbers, whatever cv::Mat has between its lines.
+template <class T>
+std::span<const T> pixels_of(const cv::Mat& continuous) {
+  return {continuous.ptr<T>(), continuous.total()};
+}
+
+class NpyWriter final : public FrameWriter {
+ public:
+  explicit NpyWriter(const std::string& path) : path_(path) {}
+
+  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
+    const bool floats = picture.type() == CV_32FC1;
+    if (!file_) {
+      auto file = NpyFile::create(path_, floats ? "<f4" : "|u1",
+                                  {static_cast<size_t>(picture.rows), static_cast<size_t>(picture.cols)});
+      if (!file) return file.error();
+      file_ = *std::move(file);
+    }
+    list_ += list_line(frames_++, frame);
+    const cv::Mat whole = picture.isContinuous() ? picture : picture.clone();
+    return floats ? file_->append(pixels_of<float>(whole)) : file_->append(pixels_of<uint8_t>(whole));
+  }
+
+  Result<void> finish() override {
+    if (!file_) return no_frame(path_);
+    if (auto r = file_->finish(); !r) return r;
+    return write_file(fs::path(path_).replace_extension(".csv").string(), list_);
+  }
+
+ private:
+  const std::string path_;
+  std::optional<NpyFile> file_;
+  uint64_t frames_ = 0;
+  std::string list_{kListHeader};
+};
+
+class Hdf5Writer final : public FrameWriter {
+ public:
+  explicit Hdf5Writer(const std::string& path) : path_(path) {}
+
+  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
+    const bool floats = picture.type() == CV_32FC1;
+    if (!file_) {
+      auto file = create_hdf5_arrays(path_, kHdf5Frames, floats ? Hdf5Element::f32 : Hdf5Element::u8,
+                                     {static_cast<size_t>(picture.rows), static_cast<size_t>(picture.cols)});
+      if (!file) return file.error();
+      file_ = *std::move(file);
+    }
+    const cv::Mat whole = picture.isContinuous() ? picture : picture.clone();
+    return floats ? file_->write(frame, pixels_of<float>(whole))
+                  : file_->write(frame, pixels_of<uint8_t>(whole));
+  }
+
+  Result<void> finish() override { return file_ ? file_->finish() : Result<void>(no_frame(path_)); }
+
+ private:
+  const std::string path_;
+  std::unique_ptr<Hdf5ArrayWriter> file_;
+};
+
 // An early answer, before a long recording is worked through.
 Result<void> check_folder_of(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
@@ -119,10 +190,13 @@ Result<OutputKind> output_kind(const std::string& path) {
     return OutputKind::folder;  // "out/" has no extension
   if (extension == ".mp4" || extension == ".avi") return OutputKind::video;
   if (extension == ".png" || extension == ".pgm") return OutputKind::image;
-  return Error{ErrorCode::illegal_parameter,
-               text("output ", path,
-                    " is of no known kind; use .mp4 or .avi for a video, .png or .pgm for an "
-                    "image, or end the name in / for a folder of frames")};
+  if (extension == ".npy") return OutputKind::npy;
+  if (extension == ".h5" || extension == ".hdf5") return OutputKind::hdf5;
+  return Error{
+      ErrorCode::illegal_parameter,
+      text("output ", path,
+           " is of no known kind; use .mp4 or .avi for a video, .png or .pgm for an image, .npy or .h5 "
+           "for an array of frames, or end the name in / for a folder of frames")};
 }
 
 Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
@@ -132,6 +206,8 @@ Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, 
     return std::unique_ptr<FrameWriter>(std::make_unique<FolderWriter>(path));
   }
   if (auto r = check_folder_of(path); !r) return r.error();
+  if (kind == OutputKind::npy) return std::unique_ptr<FrameWriter>(std::make_unique<NpyWriter>(path));
+  if (kind == OutputKind::hdf5) return std::unique_ptr<FrameWriter>(std::make_unique<Hdf5Writer>(path));
   if (kind == OutputKind::image) return std::unique_ptr<FrameWriter>(std::make_unique<ImageWriter>(path));
   return std::unique_ptr<FrameWriter>(std::make_unique<VideoFileWriter>(path, video_fps));
 }

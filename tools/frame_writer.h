@@ -11,13 +11,19 @@
 
 namespace scarf::tools {
 
-enum class OutputKind { folder, video, image };
+enum class OutputKind { folder, video, image, npy, hdf5 };
 
-/// The kind of output by its name: .mp4 and .avi are videos, .png and .pgm images, a name without an
-/// extension or ending in / is a folder. Errors: illegal_parameter for any other extension.
+/// The kind of output by its name: .mp4 and .avi are videos, .png and .pgm images, .npy and .h5 or .hdf5
+/// arrays of all frames, a name without an extension or ending in / is a folder. Errors: illegal_parameter
+/// for any other extension.
 Result<OutputKind> output_kind(const std::string& path);
 
-/// Takes 8-bit single-channel pictures of one size, in order.
+/// Whether the output holds numbers as they are: floats too.
+inline bool is_array(OutputKind kind) {
+  return kind == OutputKind::npy || kind == OutputKind::hdf5;
+}
+
+/// Takes single-channel pictures of one size and type, in order: 8 bits, and floats where is_array().
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
@@ -28,7 +34,8 @@ class FrameWriter {
 };
 
 /// `video_fps` is the speed at which a video is shown. A folder is made if it is not there, and frames of an
-/// earlier rendering in it are removed. Errors: io.
+/// earlier rendering in it are removed. Beside NAME.npy (n, height, width) comes NAME.csv, the list that a
+/// folder has inside it; HDF5: see hdf5_writer.h. Errors: io.
 Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
                                                        double video_fps);
 

@@ -106,7 +106,7 @@ class ArrayWriter final : public Hdf5ArrayWriter {
   GrowingDataset arrays_;
 };
 
-class EventsWriter final : public Hdf5EventsWriter {
+class EventsWriter final : public EventListWriter {
  public:
   explicit EventsWriter(const std::string& path) : out_(path) {}
 
@@ -156,10 +156,10 @@ Result<std::unique_ptr<Hdf5ArrayWriter>> create_hdf5_arrays(const std::string& p
   return std::unique_ptr<Hdf5ArrayWriter>(std::move(writer));
 }
 
-Result<std::unique_ptr<Hdf5EventsWriter>> create_hdf5_events(const std::string& path, SensorSize sensor) {
+Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string& path, SensorSize sensor) {
   auto writer = std::make_unique<EventsWriter>(path);
   if (auto r = writer->create(sensor); !r) return r.error();
-  return std::unique_ptr<Hdf5EventsWriter>(std::move(writer));
+  return std::unique_ptr<EventListWriter>(std::move(writer));
 }
 
 }  // namespace scarf::tools

@@ -12,6 +12,7 @@
 
 #include "scarf/event.h"
 #include "scarf/result.h"
+#include "tools/event_list_writer.h"
 #include "tools/instants.h"
 
 namespace scarf::tools {
@@ -44,17 +45,7 @@ Result<std::unique_ptr<Hdf5ArrayWriter>> create_hdf5_arrays(const std::string& p
 /// The sparse events of each frame, one frame after the other: `events/x`, `events/y` (uint16), `events/p`
 /// (uint8), `events/t` (int64, microseconds), and `events/width`, `events/height`; frame k has the rows
 /// `frame_offsets[k]` up to `frame_offsets[k + 1]` (n + 1, uint64). `times` as above, `stream_events` is
-/// Frame::events.
-class Hdf5EventsWriter {
- public:
-  virtual ~Hdf5EventsWriter() = default;
-  /// All events of a frame, in their order. Errors: io.
-  virtual Result<void> write(const Frame& frame, std::span<const Event> events) = 0;
-  /// Completes the file; without it there is none. Errors: io.
-  virtual Result<void> finish() = 0;
-};
-
-/// Errors: io; illegal_parameter if this build has no HDF5.
-Result<std::unique_ptr<Hdf5EventsWriter>> create_hdf5_events(const std::string& path, SensorSize sensor);
+/// Frame::events. Errors: io; illegal_parameter if this build has no HDF5.
+Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string& path, SensorSize sensor);
 
 }  // namespace scarf::tools

@@ -17,7 +17,7 @@ Result<std::unique_ptr<Hdf5ArrayWriter>> create_hdf5_arrays(const std::string&, 
   return missing();
 }
 
-Result<std::unique_ptr<Hdf5EventsWriter>> create_hdf5_events(const std::string&, SensorSize) {
+Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string&, SensorSize) {
   return missing();
 }
 

@@ -30,6 +30,10 @@ cv::Mat as_picture(const Image<uint8_t>& image) {
   return {image.height, image.width, CV_8UC1, const_cast<uint8_t*>(image.pixels.data())};
 }
 
+cv::Mat as_picture(const Image<float>& image) {
+  return {image.height, image.width, CV_32FC1, const_cast<float*>(image.pixels.data())};
+}
+
 Result<void> write_picture(const std::string& path, const cv::Mat& picture) {
   std::vector<uint8_t> bytes;
   if (!cv::imencode(fs::path(path).extension().string(), picture, bytes)) {

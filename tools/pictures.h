@@ -14,6 +14,7 @@ namespace scarf::tools {
 
 /// The pixels of an image with one plane, not copied: the image must outlive the result.
 cv::Mat as_picture(const Image<uint8_t>& image);
+cv::Mat as_picture(const Image<float>& image);
 
 /// Writes an image file of the kind that the name's extension says. Errors: io.
 Result<void> write_picture(const std::string& path, const cv::Mat& picture);

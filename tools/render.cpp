@@ -1,6 +1,5 @@
 // scarf render: pictures of a recording, as a folder of images, a video or one image.
 #include <algorithm>
-#include <deque>
 #include <filesystem>
 #include <iostream>
 
@@ -8,16 +7,14 @@
 #include "scarf/reference.h"
 #include "tools/commands.h"
 #include "tools/frame_writer.h"
-#include "tools/mosaic.h"
 #include "tools/options.h"
-#include "tools/pictures.h"
 #include "tools/play.h"
+#include "tools/products.h"
 #include "tools/progress.h"
 
 namespace scarf::tools {
 namespace {
 
-constexpr size_t kFramesInFlight = 4;    // enough for a device to work while earlier frames are encoded
 constexpr int64_t kDefaultWindow = 33;   // milliseconds: one frame at 30 Hz
 constexpr int64_t kMaxWindow = 100'000;  // milliseconds
 constexpr double kMinVideoFps = 0.1;
@@ -33,7 +30,16 @@ struct RenderOptions {
   uint64_t max_frames = 100'000;
   std::optional<double> video_fps;
   std::optional<int64_t> window;
+  bool floats = false;
+  std::string encoding;  // words, see parse_encoding; empty: pictures
+  std::string sparse;    // file for the sparse events of each frame
 };
+
+std::string encoding_names() {
+  std::string names;
+  for (const EncodingInfo& info : encodings()) names += (names.empty() ? "" : ", ") + info.name;
+  return names;
+}
 
 Error illegal(const std::string& message) {
   return {ErrorCode::illegal_parameter, message};
@@ -60,6 +66,23 @@ Result<void> check(const RenderOptions& options, OutputKind kind) {
   if (options.window && std::filesystem::path(options.output).extension() == ".pgm") {
     return illegal("--compare-window is not offered for .pgm; use a .png, a folder or a video");
   }
+  const bool mosaic = options.window || options.stream.representation == kAllRepresentations;
+  if (options.floats && !is_array(kind)) {
+    return illegal("--pixels float is offered for .npy and .h5; a picture has 8 bits");
+  }
+  if (!options.encoding.empty() && kind != OutputKind::hdf5) {
+    return illegal("--encoding makes tensors, which go into an .h5; name one as the output");
+  }
+  if (mosaic && (options.floats || !options.encoding.empty() || !options.sparse.empty())) {
+    return illegal(
+        "--pixels float, --encoding and --sparse are of one representation; leave out "
+        "--compare-window and --representation all");
+  }
+  if (!options.sparse.empty() && options.stream.representation == "aae") {
+    return illegal(
+        "--sparse with aae would not show the events of the picture, since each query changes its "
+        "state; use another representation");
+  }
   return {};
 }
 
@@ -72,69 +95,6 @@ Result<std::unique_ptr<Instants>> make_instants(const RenderOptions& options, Ou
   if (!times) return times.error();
   return frames_at_times(*std::move(times));
 }
-
-struct Shown {
-  std::unique_ptr<Representation> representation;
-  std::string title;
-};
-
-// Renders frames while later events are pushed: the last few images stay on their way.
-class Renderer {
- public:
-  Renderer(std::vector<Shown> shown, FrameWriter& writer) : shown_(std::move(shown)), writer_(writer) {}
-
-  Result<void> push(std::span<const Event> events) {
-    for (const Shown& s : shown_) {
-      const auto report = s.representation->push(events);
-      if (!report) return report.error();
-    }
-    return {};
-  }
-
-  Result<void> ask(const Frame& frame) {
-    InFlight asked{frame, {}};
-    for (const Shown& s : shown_) asked.images.push_back(s.representation->u8_image(frame.t));
-    in_flight_.push_back(std::move(asked));
-    ++frames_;
-    return in_flight_.size() > kFramesInFlight ? write_oldest() : Result<void>();
-  }
-
-  Result<void> finish() {
-    while (!in_flight_.empty()) {
-      if (auto r = write_oldest(); !r) return r;
-    }
-    return writer_.finish();
-  }
-
-  uint64_t frames() const { return frames_; }
-  Representation& first() const { return *shown_.front().representation; }
-
- private:
-  struct InFlight {
-    Frame frame;
-    std::vector<Pending<Image<uint8_t>>> images;
-  };
-
-  Result<void> write_oldest() {
-    InFlight oldest = std::move(in_flight_.front());
-    in_flight_.pop_front();
-    std::vector<Image<uint8_t>> images;
-    for (auto& pending : oldest.images) {
-      auto image = pending.wait();
-      if (!image) return image.error();
-      images.push_back(*std::move(image));
-    }
-    if (images.size() == 1) return writer_.write(oldest.frame, as_picture(images.front()));
-    std::vector<Tile> tiles;
-    for (size_t i = 0; i < images.size(); ++i) tiles.push_back({shown_[i].title, as_picture(images[i])});
-    return writer_.write(oldest.frame, mosaic(tiles));
-  }
-
-  const std::vector<Shown> shown_;
-  FrameWriter& writer_;
-  std::deque<InFlight> in_flight_;
-  uint64_t frames_ = 0;
-};
 
 // What the options ask for, in the order of the tiles, and the name of who computes it.
 struct Choice {
@@ -162,6 +122,31 @@ Result<Choice> choose(const RenderOptions& options, SensorSize sensor) {
   return choice;
 }
 
+Result<std::vector<std::unique_ptr<FrameProduct>>> make_products(const RenderOptions& options,
+                                                                 OutputKind kind,
+                                                                 const std::vector<Shown>& shown) {
+  Representation& first = *shown.front().representation;
+  std::vector<std::unique_ptr<FrameProduct>> products;
+  if (!options.encoding.empty()) {
+    const auto encoding = parse_encoding(options.encoding);
+    if (!encoding) return encoding.error();
+    auto tensors = tensor_product(first, *encoding, options.output);
+    if (!tensors) return tensors.error();
+    products.push_back(*std::move(tensors));
+  } else {
+    auto writer = make_frame_writer(options.output, kind, options.video_fps.value_or(30));
+    if (!writer) return writer.error();
+    products.push_back(options.floats ? float_product(first, *std::move(writer))
+                                      : picture_product(shown, *std::move(writer)));
+  }
+  if (!options.sparse.empty()) {
+    auto writer = make_event_list_writer(options.sparse, first.sensor());
+    if (!writer) return writer.error();
+    products.push_back(event_product(first, *std::move(writer)));
+  }
+  return products;
+}
+
 Result<int> render(const RenderOptions& options) {
   const auto kind = output_kind(options.output);
   if (!kind) return kind.error();
@@ -172,29 +157,42 @@ Result<int> render(const RenderOptions& options) {
   if (!recording) return recording.error();
   auto choice = choose(options, recording->sensor);
   if (!choice) return choice.error();
-  const auto writer = make_frame_writer(options.output, *kind, options.video_fps.value_or(30));
-  if (!writer) return writer.error();
+  auto products = make_products(options, *kind, choice->shown);
+  if (!products) return products.error();
 
-  Renderer renderer(std::move(choice->shown), **writer);
+  uint64_t frames = 0;
   uint64_t events = 0;
   double seconds = 0;
   {
     Progress progress(*recording->source);
     const auto push = [&](std::span<const Event> batch) -> Result<void> {
       progress.add(batch.size());
-      return renderer.push(batch);
+      for (const Shown& s : choice->shown) {
+        const auto report = s.representation->push(batch);
+        if (!report) return report.error();
+      }
+      return {};
+    };
+    const auto ask = [&](const Frame& frame) -> Result<void> {
+      ++frames;
+      for (const auto& product : *products) {
+        if (auto r = product->ask(frame); !r) return r;
+      }
+      return {};
     };
     const auto played =
         play(*recording->source, {.batches = options.stream.batches, .instants = instants->get()},
-             {.events = push, .frame = [&](const Frame& frame) { return renderer.ask(frame); }});
+             {.events = push, .frame = ask});
     if (!played) return played.error();
-    if (auto r = renderer.finish(); !r) return r.error();
+    for (const auto& product : *products) {
+      if (auto r = product->finish(); !r) return r.error();
+    }
     events = *played;
     seconds = progress.seconds();
   }
-  const auto filtered = filter_lines(options.stream, renderer.first());
+  const auto filtered = filter_lines(options.stream, *choice->shown.front().representation);
   if (!filtered) return filtered.error();
-  std::cout << text("rendered ", renderer.frames(), " frames of ", events, " events in ", seconds, " s (",
+  std::cout << text("rendered ", frames, " frames of ", events, " events in ", seconds, " s (",
                     static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
                     " events/s with reading and writing) on ", choice->implementation, "\n", *filtered);
   return 0;
@@ -206,9 +204,23 @@ void add_render(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("render", "Pictures of a recording");
   auto options = std::make_shared<RenderOptions>();
   add_stream_options(*app, options->stream, {kAllRepresentations});
-  app->add_option("-o,--output", options->output,
-                  "A folder of PNG frames, a video (.mp4, .avi), or one image of the end (.png, .pgm)")
+  app->add_option(
+         "-o,--output", options->output,
+         "A folder of PNG frames, a video (.mp4, .avi), an array of frames (.npy, .h5), or one image of the "
+         "end (.png, .pgm)")
       ->required();
+  const std::string what = "What";
+  app->add_option_function<std::string>(
+         "--pixels", [options](const std::string& word) { options->floats = word == "float"; },
+         "u8 or float, default u8; float is offered for .npy and .h5")
+      ->check(CLI::IsMember({"u8", "float"}))
+      ->group(what);
+  app->add_option("--encoding", options->encoding,
+                  "A tensor of the active events instead of a picture, into an .h5: one of " +
+                      encoding_names() + ", such as voxel_grid:bins=5")
+      ->group(what);
+  app->add_option("--sparse", options->sparse, "File for the sparse events of each frame (.h5, .npz)")
+      ->group(what);
   const std::string when = "When";
   CLI::Option* rate = add_parsed_option(*app, "--rate", options->rate, parse_frame_rate,
                                         "Frames per second of recorded time, default 30")

@@ -1,0 +1,28 @@
+// Files of the sparse events of every frame.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "scarf/event.h"
+#include "scarf/result.h"
+#include "tools/instants.h"
+
+namespace scarf::tools {
+
+class EventListWriter {
+ public:
+  virtual ~EventListWriter() = default;
+  /// All events of a frame, in their order. Errors: io.
+  virtual Result<void> write(const Frame& frame, std::span<const Event> events) = 0;
+  /// Completes the file; without it there is none. Errors: io.
+  virtual Result<void> finish() = 0;
+};
+
+/// By the name: .h5 and .hdf5 (see hdf5_writer.h), .npz (arrays x, y, p, t of all events, one frame after the
+/// other; frame_offsets, one more than there are frames; times, stream_events). Errors: illegal_parameter for
+/// other names, and where this build lacks the library; io.
+Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor);
+
+}  // namespace scarf::tools

@@ -1,0 +1,14 @@
+// The sparse events of every frame as a NumPy archive.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tools/event_list_writer.h"
+
+namespace scarf::tools {
+
+/// Errors: io; illegal_parameter if this build has no libzip.
+Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string& path);
+
+}  // namespace scarf::tools
