@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian or Ubuntu packages that the build and its tests need; does nothing if all are there.
+# Installs the Debian or Ubuntu packages that the build and its tests need, and those named as arguments; does
+# nothing if all are there.
 set -euo pipefail
 
 packages=(
@@ -10,6 +11,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   libhdf5-dev hdf5-filter-plugin-blosc-serial hdf5-plugin-lzf hdf5-filter-plugin python3-h5py python3-numpy
 )
+packages+=("$@")
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install_packages: no apt-get here; the build needs the counterparts of ${packages[*]}" >&2

@@ -7,6 +7,7 @@
 #include "scarf/reference.h"
 #include "tools/commands.h"
 #include "tools/frame_writer.h"
+#include "tools/memory.h"
 #include "tools/options.h"
 #include "tools/play.h"
 #include "tools/products.h"
@@ -194,7 +195,8 @@ Result<int> render(const RenderOptions& options) {
   if (!filtered) return filtered.error();
   std::cout << text("rendered ", frames, " frames of ", events, " events in ", seconds, " s (",
                     static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
-                    " events/s with reading and writing) on ", choice->implementation, "\n", *filtered);
+                    " events/s with reading and writing) on ", choice->implementation, "\n",
+                    memory_line(*choice->shown.front().representation), *filtered);
   return 0;
 }
 
