@@ -28,7 +28,7 @@ struct FrameFile {
 
   Result<void> create(const std::string& counts_name) {
     auto made = hdf5::create_file(place.name());
-    if (!made) return made.error();
+    if (!made) return named(path, made.error());
     file = *std::move(made);
     auto t = GrowingDataset::create<int64_t>(file, "times", {}, kFramesPerChunk);
     if (!t) return named(path, t.error());

@@ -17,6 +17,8 @@ constexpr Extension kExtensions[] = {
     {".raw", "evt3"},
     {".txt", "text"},
     {".csv", "text"},
+    {".h5", "dsec"},
+    {".hdf5", "dsec"},
 };
 
 }  // namespace

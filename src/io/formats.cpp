@@ -11,9 +11,8 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
-    &kTextFormat,
-    &kEvt2Format,
-    &kEvt3Format,
+    &kMetavisionHdf5Format, &kMvsecFormat, &kM3edFormat, &kDsecFormat, &kRvtFormat,
+    &kEventUtilsFormat,     &kHdf5Format,  &kTextFormat, &kEvt2Format, &kEvt3Format,
 };
 
 std::string names(bool (*wanted)(const Format&)) {

@@ -7,6 +7,13 @@ namespace scarf {
 
 extern const Format kEvt2Format;
 extern const Format kEvt3Format;
+extern const Format kMetavisionHdf5Format;
+extern const Format kMvsecFormat;
+extern const Format kM3edFormat;
+extern const Format kDsecFormat;
+extern const Format kRvtFormat;
+extern const Format kEventUtilsFormat;
+extern const Format kHdf5Format;
 extern const Format kTextFormat;
 
 }  // namespace scarf

@@ -8,9 +8,10 @@
 
 namespace scarf {
 
-// Each creates the file; "-" is standard output. The sensor is a legal one. Errors: io.
+// Each creates the file; "-" is standard output, or refused. The sensor is a legal one. Errors: io.
 Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor);
+Result<std::unique_ptr<EventSink>> create_dsec(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor);
 
 }  // namespace scarf

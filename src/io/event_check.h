@@ -1,0 +1,47 @@
+// The check of every event before it is written.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scarf/event.h"
+#include "scarf/result.h"
+
+namespace scarf {
+
+/// What a format can hold.
+struct WriteLimits {
+  std::string_view format;
+  int64_t t_min = std::numeric_limits<int64_t>::min();  ///< the earliest time ...
+  int64_t t_end = std::numeric_limits<int64_t>::max();  ///< ... and the first one too late
+  bool back_steps = false;                              ///< whether a time may be before the one before it
+  int32_t max_coordinate = std::numeric_limits<uint16_t>::max();
+};
+
+class EventCheck {
+ public:
+  EventCheck(SensorSize sensor, const WriteLimits& limits)
+      : sensor_(sensor), limits_(limits), previous_t_(limits.t_min) {}
+
+  /// For formats whose range of times depends on the first event.
+  void set_t_end(int64_t t_end) { limits_.t_end = t_end; }
+  bool accepts(const Event& event) const { return objection(event).empty(); }
+  /// How many of the next events, from the front, can be written.
+  size_t accepted(std::span<const Event> events);
+  /// What is said of the event behind those that were accepted.
+  Error refusal(const std::string& path, const Event& event) const;
+
+ private:
+  std::string_view objection(const Event& event) const;
+
+  SensorSize sensor_;
+  WriteLimits limits_;
+  uint64_t count_ = 0;
+  int64_t previous_t_;
+};
+
+}  // namespace scarf

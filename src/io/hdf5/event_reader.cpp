@@ -1,0 +1,240 @@
+// Events of HDF5 files, in any of the layouts.
+#include <algorithm>
+#include <utility>
+
+#include "core/text.h"
+#include "io/block_source.h"
+#include "io/hdf5/event_table.h"
+#include "io/hdf5/reader.h"
+#include "io/sensor_size.h"
+
+namespace scarf::hdf5 {
+namespace {
+
+constexpr size_t kBlockRows = 32 * 1024;
+// Chunks in a row that were never written: beyond that the rest of a dataset is not looked at, because a file
+// of any size can claim any number of rows.
+constexpr uint64_t kMaxHoles = 64 * 1024;
+
+// Microseconds of a unit of time as a fraction.
+struct TimeUnit {
+  int64_t numerator = 1;
+  int64_t denominator = 1;
+};
+
+Result<TimeUnit> time_unit(const std::string& given, const Layout& layout, NumberType type) {
+  if (given == "s") return TimeUnit{1'000'000, 1};
+  if (given == "ms") return TimeUnit{1000, 1};
+  if (given == "us") return TimeUnit{1, 1};
+  if (given == "ns") return TimeUnit{1, 1000};
+  if (!given.empty())
+    return Error{ErrorCode::illegal_parameter, text("--time-unit is ", given, "; it is s, ms, us or ns")};
+  if (!is_float(type)) return TimeUnit{1, 1};
+  if (layout.family == Family::other && layout.shape == Shape::array) {
+    return Error{ErrorCode::illegal_parameter,
+                 "the times are floating-point numbers of an unknown unit; give it with --time-unit"};
+  }
+  return TimeUnit{1'000'000, 1};
+}
+
+// kNoInteger for what is no time.
+template <class T>
+int64_t microseconds(T value, TimeUnit unit) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const auto t = static_cast<double>(value);
+    return nearest_integer(unit.denominator == 1 ? t * static_cast<double>(unit.numerator)
+                                                 : t / static_cast<double>(unit.denominator));
+  } else {
+    const int64_t t = as_integer(value);
+    int64_t result = 0;
+    if (unit.denominator == 1)
+      return __builtin_mul_overflow(t, unit.numerator, &result) ? kNoInteger : result;
+    // The nearest, halves up.
+    const int64_t rest = (t % unit.denominator + unit.denominator) % unit.denominator;
+    const int64_t below = (t - rest) / unit.denominator;
+    return 2 * rest >= unit.denominator ? below + 1 : below;
+  }
+}
+
+class Reader final : public BlockSource {
+ public:
+  Reader(Handle file, EventTable table, TimeUnit unit, int64_t t_offset, std::string_view format,
+         uint64_t bytes, std::string name, std::optional<SensorSize> sensor, const ReadOptions& options)
+      : BlockSource(std::move(name), sensor, options),
+        file_(std::move(file)),
+        table_(std::move(table)),
+        unit_(unit),
+        t_offset_(t_offset),
+        format_(format),
+        bytes_(bytes) {
+    if (table_.disagreement()) tally_.note_damage(0, *table_.disagreement());
+  }
+
+  std::string_view format() const override { return format_; }
+  uint64_t bytes_read() const override {
+    if (row_ >= table_.rows()) return bytes_;
+    return static_cast<uint64_t>(static_cast<double>(row_) / static_cast<double>(table_.rows()) *
+                                 static_cast<double>(bytes_));
+  }
+  uint64_t bytes_total() const override { return bytes_; }
+
+ protected:
+  Result<bool> next(std::vector<Event>& block) override {
+    if (at_ == t_.size() && !load()) return false;
+    // What no Event can hold is counted in its turn, between the events before and behind it.
+    for (; at_ < t_.size() && !tally_.failure(); ++at_) {
+      if (!legal_time(t_[at_])) {
+        ++tally_.report.unknown_words;
+        if (tally_.strict()) {
+          tally_.fail({ErrorCode::bad_input, text("row ", block_row_ + at_, " has no time that scarf holds; ",
+                                                  "leave out --strict to pass over it")});
+        }
+      } else if (outside(at_)) {
+        tally_.drop(t_[at_]);
+      } else {
+        break;
+      }
+    }
+    block.reserve(t_.size() - at_);
+    for (; at_ < t_.size() && legal_time(t_[at_]) && !outside(at_); ++at_) {
+      Event& e = block.emplace_back();
+      e.t = t_[at_];
+      e.x = static_cast<uint16_t>(x_[at_]);
+      e.y = static_cast<uint16_t>(y_[at_]);
+      e.p = p_[at_] > 0 ? 1 : 0;
+    }
+    return true;
+  }
+
+ private:
+  static bool legal_time(int64_t t) { return t > -kMaxTime && t < kMaxTime; }
+  bool outside(size_t i) const { return ((x_[i] | y_[i]) & ~int64_t{0xFFFF}) != 0; }
+
+  // Reads the next rows that can be read. False: there are none.
+  bool load() {
+    while (row_ < table_.rows() && !tally_.failure()) {
+      const uint64_t chunk = table_.chunk_end(row_) - row_;
+      const bool piecewise = table_.by_chunk() || row_ < piecewise_until_;
+      const uint64_t left = std::min<uint64_t>(kBlockRows, table_.rows() - row_);
+      const auto count = static_cast<size_t>(table_.by_chunk() ? chunk
+                                             : piecewise       ? std::min(left, chunk)
+                                                               : left);
+      std::optional<BrokenRows> broken;
+      if (!table_.written(row_, count)) {
+        if (piecewise && ++holes_ > kMaxHoles) return end_at_hole();
+        broken =
+            BrokenRows{row_ + count, 0, text("rows ", row_, " to ", row_ + count - 1, " were never written")};
+      } else {
+        broken = table_.read(row_, count);
+      }
+      if (!broken) {
+        holes_ = 0;
+        keep(count);
+        return true;
+      }
+      if (!piecewise) {
+        piecewise_until_ = row_ + count;
+        continue;
+      }
+      tally_.note_damage(broken->byte, std::move(broken->what));
+      row_ = broken->end;
+    }
+    return false;
+  }
+
+  bool end_at_hole() {
+    tally_.note_damage(0, text("rows ", row_, " to ", table_.rows() - 1, " were never written"));
+    row_ = table_.rows();
+    return false;
+  }
+
+  void keep(size_t count) {
+    for (auto* const field : {&x_, &y_, &t_, &p_}) field->resize(count);
+    const auto whole = [](auto v) { return as_integer(v); };
+    table_.numbers(EventTable::x).transform(x_, whole);
+    table_.numbers(EventTable::y).transform(y_, whole);
+    table_.numbers(EventTable::t).transform(t_, [&](auto v) {
+      int64_t t = microseconds(v, unit_);
+      return __builtin_add_overflow(t, t_offset_, &t) ? kNoInteger : t;
+    });
+    table_.numbers(EventTable::p).transform(p_, [](auto v) { return v > 0 ? 1 : 0; });
+    block_row_ = row_;
+    row_ += count;
+    at_ = 0;
+  }
+
+  Handle file_;
+  EventTable table_;
+  const TimeUnit unit_;
+  const int64_t t_offset_;
+  const std::string_view format_;
+  const uint64_t bytes_;
+  uint64_t row_ = 0;  // the next to be read
+  uint64_t piecewise_until_ = 0;
+  uint64_t holes_ = 0;
+  uint64_t block_row_ = 0;  // the first of those below
+  size_t at_ = 0;
+  std::vector<int64_t> x_, y_, t_, p_;
+};
+
+Error has_no_events(Family family) {
+  if (family != Family::other)
+    return {ErrorCode::bad_input, text("has no events as ", name_of(family), " has them")};
+  return {ErrorCode::bad_input,
+          "this HDF5 file has no events where scarf looks for them; docs/FORMATS.md says where that is"};
+}
+
+}  // namespace
+
+bool recognise(const std::string& path, Family family) {
+  const auto file = open_file(path);
+  return file && find_layout(*file, family) != nullptr;
+}
+
+namespace {
+
+Result<std::unique_ptr<EventSource>> open(Handle file, const std::string& name, uint64_t bytes,
+                                          const ReadOptions& options, Family family) {
+  const Layout* const layout = find_layout(file, family);
+  if (layout == nullptr) return has_no_events(family);
+  const auto place = place_of(file, *layout, options.stream);
+  if (!place) return place.error();
+  auto table = EventTable::open(file, *layout, *place, options.columns);
+  if (!table) return table.error();
+  const auto unit = time_unit(options.time_unit, *layout, table->time_type());
+  if (!unit) return unit.error();
+  std::optional<SensorSize> size;
+  if (layout->sensor != nullptr) size = layout->sensor(file, *place);
+  if (size) {
+    const auto legal = checked_sensor(size->width, size->height, "the HDF5 file");
+    if (!legal) return legal.error();
+  }
+  const auto sensor = agreed_sensor(size, options.sensor);
+  if (!sensor) return sensor.error();
+  int64_t t_offset = 0;
+  if (family == Family::dsec && Dataset::exists(file, "t_offset")) {
+    const auto value = short_dataset(file, "t_offset");
+    if (!value) return Error{ErrorCode::bad_input, "t_offset is no integer"};
+    t_offset = value->front();
+  }
+  return std::unique_ptr<EventSource>(std::make_unique<Reader>(
+      std::move(file), *std::move(table), *unit, t_offset, name_of(family), bytes, name, *sensor, options));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& options, Family family) {
+  if (auto r = require_path(input, "HDF5"); !r) return r.error();
+  auto file = open_file(input.path);
+  if (!file) return file.error();
+  return open(*std::move(file), input.name, input.bytes.total(), options, family);
+}
+
+Result<std::unique_ptr<EventSource>> open_image(std::span<const uint8_t> bytes, const ReadOptions& options,
+                                                Family family) {
+  auto file = open_bytes(bytes);
+  if (!file) return file.error();
+  return open(*std::move(file), "memory", bytes.size(), options, family);
+}
+
+}  // namespace scarf::hdf5
