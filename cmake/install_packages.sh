@@ -9,7 +9,7 @@ packages=(
   libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev
   libzip-dev python3-numpy python3-h5py
   libgtest-dev libgmock-dev libbenchmark-dev
-  libhdf5-dev hdf5-filter-plugin-blosc-serial hdf5-filter-plugin python3-h5py python3-numpy
+  libhdf5-dev hdf5-filter-plugin-blosc-serial hdf5-filter-plugin
 )
 packages+=("$@")
 
