@@ -43,6 +43,8 @@ std::string_view scene_name(Scene scene) {
       return "uniform";
     case Scene::hot_spot:
       return "hot_spot";
+    case Scene::one_tile:
+      return "one_tile";
     case Scene::single_pixel:
       return "single_pixel";
   }
@@ -67,6 +69,10 @@ std::vector<Event> make_scene(Scene scene, SensorSize sensor, size_t count) {
           x = sensor.width / 2 + random.below(8);
           y = sensor.height / 2 + random.below(8);
         }
+        break;
+      case Scene::one_tile:
+        x = sensor.width / 2 + random.below(8);
+        y = sensor.height / 2 + random.below(8);
         break;
       case Scene::single_pixel:
         x = sensor.width / 2;

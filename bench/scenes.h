@@ -13,9 +13,11 @@ enum class Scene {
   edges,         ///< 20 slanted 2-pixel bars of different speeds; every 20th event is noise
   uniform,       ///< anywhere
   hot_spot,      ///< half of the events anywhere, half in one 8x8 block
+  one_tile,      ///< all in one 8x8 block
   single_pixel,  ///< all in one pixel
 };
-inline constexpr Scene kScenes[] = {Scene::edges, Scene::uniform, Scene::hot_spot, Scene::single_pixel};
+inline constexpr Scene kScenes[] = {Scene::edges, Scene::uniform, Scene::hot_spot, Scene::one_tile,
+                                    Scene::single_pixel};
 
 std::string_view scene_name(Scene scene);
 

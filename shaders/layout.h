@@ -31,31 +31,45 @@ SCARF_CONSTANT kCursorDead = 0xFFFFFFFFu;
 // 8-bit levels in TonePush.
 SCARF_CONSTANT kPushedLevels = 8;
 
-// What the render stage counts (PolarityMode); merged counts are kept by the place stage.
+// What the render stage counts (PolarityMode).
+SCARF_CONSTANT kModeMerged = 0;
 SCARF_CONSTANT kModeSeparate = 1;
 SCARF_CONSTANT kModeDifference = 2;
 
+// Where the pixel of an active event lies in the picture of its cell, whose rows take whole words, one byte per slot.
+// 255: the slot holds no active event. So a cell that is painted has at most 63 words.
+SCARF_CONSTANT kPaintWords = 63;
+SCARF_CONSTANT kNotShown = 255;
+SCARF_CONSTANT kSlotsPerGroup = 16;  // the positions of a ring begin at a multiple
+
 // count and place: one batch of events, cut into chunks.
 struct BatchPush {
-  uint first_event;   // index of the batch's first event in the staging buffer
-  uint events;        // events of the batch
-  uint chunk_events;  // events per chunk
+  uint first_event;    // index of the batch's first event in the staging buffer
+  uint events;         // events of the batch
+  uint chunk_events;   // events per chunk
   uint chunks;
-  uint width;         // sensor; the column ranges are ranges[0 .. width], the row ranges ranges[width + 1 ..]
+  uint width;          // sensor; columns are entries 0 .. width of ranges and classes, rows those from width + 1 on
   uint height;
-  uint grid_x;
-  uint patches;       // words of the table per chunk
-  int field_x;        // origin - margin_lo: first pixel of the field of patch 0, may be negative
+  uint class_columns;  // count: classes of columns, class 0 included
+  uint class_words;    // count: words per chunk
+  uint grid_x;         // place: from here on
+  uint patches;        // words of the table per chunk
+  int field_x;         // origin - margin_lo: first pixel of the field of patch 0, may be negative
   int field_y;
-  uint margin_lo_x;
-  uint margin_lo_y;
   uint cell_x;
   uint cell_y;
   uint capacity;
   uint t_first_low;
   uint t_first_high;
-  uint count_corners; // count: 1 = corners of rectangles, to be integrated; 0 = hits
-  uint prune;         // place: 1 = the prune stage has run
+  uint prune;          // 1 = the prune stage has run
+  uint stripes;        // see team.glsl
+  uint unused_entry;   // index of entries of the table, one per invocation, for what is not to happen
+  uint unused_slot;    // slots likewise
+  uint margin_lo_x;
+  uint margin_lo_y;
+  uint row_bytes;      // of positions, per row of a cell; see kNotShown
+  uint ring_bytes;     // of positions, per patch
+  uint unused_position;
 };
 
 // clear: the slots of all rings.
@@ -63,14 +77,14 @@ struct ClearPush {
   uint slots;
 };
 
-// integrate: running sums along the rows or columns of patches of each chunk.
-struct IntegratePush {
-  uint patches;
+// sum: running sums along the lines of each chunk's counts per class.
+struct SumPush {
   uint chunks;
-  uint lines;         // per chunk
-  uint line_stride;   // from one line to the next
-  uint line_patches;
-  uint patch_stride;  // from one patch of a line to the next
+  uint class_words;    // per chunk
+  uint lines;          // per chunk
+  uint line_stride;    // from one line to the next
+  uint line_classes;
+  uint class_stride;   // from one class of a line to the next
 };
 
 // prune: which events of a chunk have a surviving hit.
@@ -82,11 +96,14 @@ struct PrunePush {
   uint most_rows;
 };
 
-// scan: per-chunk hit counts of a patch to cursors.
+// scan: sums of a patch's classes per chunk to cursors.
 struct ScanPush {
   uint patches;
   uint chunks;
   uint capacity;
+  uint grid_x;
+  uint class_columns;
+  uint class_words;
 };
 
 // render and extract: patches of the state.
@@ -109,6 +126,22 @@ struct PatchPush {
   uint half_events;   // extract: events that the first half of the output holds
   uint t_first_low;
   uint t_first_high;
+};
+
+// paint: positions to the picture.
+struct PaintPush {
+  uint patches;
+  uint grid_x;
+  uint groups;        // of positions per patch
+  int cell_begin_x;   // first pixel of the cell of patch 0
+  int cell_begin_y;
+  uint cell_x;
+  uint cell_y;
+  uint row_words;     // per row of a cell
+  uint width;
+  uint height;
+  uint levels_0_to_3; // see TonePush
+  uint levels_4_to_7;
 };
 
 // tone: whole numbers to brightness.

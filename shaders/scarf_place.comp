@@ -1,78 +1,116 @@
 // SCARF, stage "place": the chunks are walked again, and the hits that survive the batch are stored in their slots.
-// The count image follows: what a slot held is no longer shown, what it holds now is.
 // CPU twin: cpu_ref/stages/scarf_place.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_8bit_storage : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "layout.h"
 #include "packed_event.glsl"
 #include "team.glsl"
 #include "active.glsl"
 
-layout(std430, binding = 3) buffer Slots { uint64_t slots[]; };
-layout(std430, binding = 4) readonly buffer Alive { uint alive[]; };  // see scarf_prune.comp; valid if push.prune
-layout(std430, binding = 5) buffer Counts { int counts[]; };          // active stored events per pixel
+layout(std430, binding = 1) readonly buffer Ranges { uint ranges[]; };  // first | last << 16 per column, then row
+layout(std430, binding = 2) buffer TableBuffer { uint table[]; };       // cursors per chunk and patch
+layout(std430, binding = 3) writeonly buffer Slots { uint64_t slots[]; };
+layout(std430, binding = 4) readonly buffer Alive { uint alive[]; };    // see scarf_prune.comp; valid if push.prune
+layout(std430, binding = 5) writeonly buffer Positions { uint8_t positions[]; };  // per slot; see kNotShown
 
-// One hit of an event (x | y << 16, time and polarity packed) on patch (i, j).
-void place_hit(Lane lane, uint i, uint j, uint xy, uvec2 word) {
+layout(constant_id = 5) const bool kPaints = true;  // the paint stage needs positions
+
+// An event on its way to its patches.
+struct Walked {
+  uint columns;  // first | last << 16 of the patches that hold it
+  uint rows;
+  uint xy;       // x | y << 16
+  uvec2 word;    // time and polarity, packed
+};
+
+// The hit of an event on patch (i, j), if that holds it. Nothing is masked: on CPU devices an unpredictable branch
+// costs more than a store, so what is not to happen goes to an entry and a slot of the lane's own. The entry always
+// holds kCursorDead.
+void place_hit(Lane lane, uint i, uint j, Walked e) {
+  const bool held = i <= e.columns >> 16 && j <= e.rows >> 16;
   const uint patch_id = j * push.grid_x + i;
-  const uint cursor = table[lane.base + patch_id];
-  if (cursor >= kCursorSkipOne) {
-    if (cursor != kCursorDead) table[lane.base + patch_id] = cursor - kCursorSkipOne;
-    return;
-  }
-  table[lane.base + patch_id] = cursor + 1 == push.capacity ? 0 : cursor + 1;
-  // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity. So it holds
-  // an event of an earlier batch, or none.
-  const uint slot = patch_id * push.capacity + cursor;
-  const uint64_t old = slots[slot];
+  const uint entry = held ? lane.base + patch_id : push.unused_entry + lane.all;
+  const uint cursor = table[entry];
+  const bool stored = cursor < kCursorSkipOne;
+  const uint next_slot = cursor + 1 == push.capacity ? 0 : cursor + 1;
+  const uint next_skip = cursor == kCursorDead ? kCursorDead : cursor - kCursorSkipOne;
+  table[entry] = stored ? next_slot : next_skip;
+  // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity.
+  const uint slot = stored ? patch_id * push.capacity + cursor : push.unused_slot + lane.all;
   const uint field_x = uint(push.field_x) + i * push.cell_x;  // fields may begin outside the sensor and wrap,
   const uint field_y = uint(push.field_y) + j * push.cell_y;  // pixels of events never do
-  const uint low_word = word.x | pack_position((xy & 0xFFFF) - field_x, (xy >> 16) - field_y);
-  slots[slot] = packUint2x32(uvec2(low_word, word.y));
-  const uint old_word = uint(old);
-  if (old != kEmptySlot && is_active(old_word)) {
-    atomicAdd(counts[(field_y + packed_y(old_word)) * push.width + field_x + packed_x(old_word)], -1);
+  const uint low_word = e.word.x | pack_position((e.xy & 0xFFFF) - field_x, (e.xy >> 16) - field_y);
+  slots[slot] = packUint2x32(uvec2(low_word, e.word.y));
+  if (kPaints) {
+    const uint x = packed_x(low_word) - push.margin_lo_x;
+    const uint y = packed_y(low_word) - push.margin_lo_y;
+    const uint position = is_active(low_word) ? y * push.row_bytes + x : kNotShown;
+    // Eight bytes per lane, so that cores do not share a cache line.
+    positions[stored ? patch_id * push.ring_bytes + cursor : push.unused_position + 8 * lane.all] = uint8_t(position);
   }
-  if (is_active(low_word)) atomicAdd(counts[(xy >> 16) * push.width + (xy & 0xFFFF)], 1);
 }
+
+// The hits of an event on all patches that the lane owns. Small teams are spelled out: their loops would cost trips,
+// see trips_per_block() in src/scarf/plan.cpp.
+void place_event(Lane lane, Walked e) {
+  const uint i = first_owned(e.columns & 0xFFFF, lane.x, kTeamX);
+  const uint j = first_owned(e.rows & 0xFFFF, lane.y, kTeamY);
+  if (kLaneColumns == 1 && kLaneRows <= 2) {
+    place_hit(lane, i, j, e);
+    if (kLaneRows == 2) place_hit(lane, i, j + kTeamY, e);
+    return;
+  }
+  for (uint r = 0; r < kLaneRows; ++r) {
+    for (uint c = 0; c < kLaneColumns; ++c) place_hit(lane, i + c * kTeamX, j + r * kTeamY, e);
+  }
+}
+
+bool any_lane(bool value) { return subgroupBallot(value) != uvec4(0); }
 
 void main() {
   const Lane lane = this_lane();
-  if (lane.chunk >= push.chunks) return;
-  const uint begin = lane.chunk * push.chunk_events;
-  const uint end = min(begin + push.chunk_events, push.events);
+  const bool has_chunk = lane.chunk < push.chunks;
+  uint block = has_chunk ? lane.chunk * push.chunk_events : 0;
+  const uint end = has_chunk ? min(block + push.chunk_events, push.events) : 0;
   const uint64_t t_first = packUint2x32(uvec2(push.t_first_low, push.t_first_high));
-  // Trips: see trips_per_block() in src/scarf/plan.cpp.
-  for (uint block = begin; block < end; block += kTeamLanes) {
-    const uint own_event = push.first_event + min(block + lane.index, end - 1);
-    const uint own_xy = events[own_event].z;
-    const Field own = field_of(own_xy);
-    bool walked = block + lane.index < end && has_patches(own);
-    if (push.prune != 0 && walked) {
-      walked = alive[lane.base + (own.rows & 0xFFFF) * push.grid_x + (own.columns & 0xFFFF)] != 0;
-    }
-    uvec2 own_word = uvec2(0);
-    if (walked) {
-      const uvec4 event = events[own_event];
-      own_word = unpackUint2x32(pack_time(packUint2x32(event.xy) - t_first) | pack_polarity(event.w & 1));
-    }
-    // The team takes the events that are left in their order.
-    for (uint left = team_ballot(lane, walked); left != 0; left &= left - 1) {
-      const uint source = lane.team + findLSB(left);
-      const uint columns = subgroupShuffle(own.columns, source);
-      const uint rows = subgroupShuffle(own.rows, source);
-      const uint xy = subgroupShuffle(own_xy, source);
-      const uvec2 word = subgroupShuffle(own_word, source);
-      const uint first_i = first_owned(columns & 0xFFFF, lane.x, kTeamX);
-      const uint first_j = first_owned(rows & 0xFFFF, lane.y, kTeamY);
-      for (uint r = 0; r < kLaneRows; ++r) {
-        const uint j = first_j + r * kTeamY;
-        for (uint c = 0; c < kLaneColumns; ++c) {
-          const uint i = first_i + c * kTeamX;
-          if (i <= columns >> 16 && j <= rows >> 16) place_hit(lane, i, j, xy, word);
-        }
+  // All teams of a subgroup leave a loop together, those that have nothing to do walk empty blocks: llvmpipe does not
+  // keep what a loop computed for lanes that left it early. Loops end at their ends only, where a branch skips them on
+  // CPU devices. Trips: see trips_per_block().
+  do {
+    // The next block of events, one per lane, of which any need be walked.
+    Walked own;
+    uint own_event;
+    uint left;
+    do {
+      const bool in_chunk = block + lane.index < end;
+      own_event = push.first_event + (in_chunk ? block + lane.index : 0);
+      own.xy = events[own_event].z;
+      own.columns = ranges[column_entry(own.xy)];
+      own.rows = ranges[row_entry(own.xy)];
+      const uvec2 first = uvec2(own.columns, own.rows) & 0xFFFF;
+      const uvec2 last = uvec2(own.columns, own.rows) >> 16;
+      bool walked = in_chunk && first.x <= last.x && first.y <= last.y;
+      if (push.prune != 0) {
+        walked = walked && alive[walked ? lane.base + first.y * push.grid_x + first.x : 0] != 0;
       }
-    }
-  }
+      left = team_ballot(lane, walked);
+      block += kTeamLanes;
+    } while (!any_lane(left != 0) && any_lane(block < end));
+    const uvec4 event = events[own_event];
+    own.word = unpackUint2x32(pack_time(packUint2x32(event.xy) - t_first) | pack_polarity(event.w & 1));
+    // A team takes the events that are left in their order; when none are, an empty rectangle of patches.
+    do {
+      const uint source = lane.team + (left == 0 ? 0 : findLSB(left));
+      Walked e;
+      e.columns = subgroupShuffle(own.columns, source);
+      e.rows = subgroupShuffle(own.rows, source);
+      e.xy = subgroupShuffle(own.xy, source);
+      e.word = subgroupShuffle(own.word, source);
+      if (left == 0) e.columns = 0xFFFF;
+      place_event(lane, e);
+      left &= left - 1;
+    } while (any_lane(left != 0));
+  } while (any_lane(block < end));
 }

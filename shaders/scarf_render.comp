@@ -1,5 +1,5 @@
-// SCARF, stage "render": the active stored events of each patch, told apart by polarity, are counted into the pixels of
-// its cell. (Counts of both polarities together are kept by the place stage.)
+// SCARF, stage "render": the active stored events of each patch, together or told apart by polarity, are counted into
+// the pixels of its cell.
 // CPU twin: cpu_ref/stages/scarf_render.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -26,17 +26,28 @@ struct Lane {
   uint x;
   uint y;
   uint base;   // first entry of the chunk's table
+  uint all;    // number among the lanes of all teams
 };
+
+// Consecutive teams may go to the same core, and the last chunks may have the most work. So every core gets a stripe of
+// chunks: the teams of stripe n take the chunks n, n + stripes, n + 2 * stripes, ...
+uint striped(uint team) {
+  const uint per_stripe = (push.chunks + push.stripes - 1) / push.stripes;
+  const uint stripe = team / per_stripe;  // workgroups may have teams beyond the last
+  return stripe < push.stripes ? team % per_stripe * push.stripes + stripe : push.chunks;
+}
 
 Lane this_lane() {
   Lane lane;
   const uint invocation = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
-  lane.chunk = linear_workgroup() * (gl_WorkGroupSize.x / kTeamLanes) + invocation / kTeamLanes;
+  const uint team = linear_workgroup() * (gl_WorkGroupSize.x / kTeamLanes) + invocation / kTeamLanes;
+  lane.chunk = striped(team);
   lane.index = gl_SubgroupInvocationID % kTeamLanes;
   lane.team = gl_SubgroupInvocationID - lane.index;
   lane.x = lane.index % kTeamX;
   lane.y = lane.index / kTeamX;
   lane.base = lane.chunk * push.patches;
+  lane.all = team * kTeamLanes + lane.index;
   return lane;
 }
 

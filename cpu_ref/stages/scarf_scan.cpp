@@ -5,11 +5,22 @@
 
 namespace scarf::stages {
 
-void scarf_scan(std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
-                const layout::ScanPush& push) {
+void scarf_scan(std::span<const uint32_t> sums, std::span<const uint32_t> patch_classes,
+                std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
+                std::span<uint32_t> dirty, const layout::ScanPush& push) {
   for (uint32_t patch = 0; patch < push.patches; ++patch) {
+    const uint32_t columns = patch_classes[patch % push.grid_x];
+    const uint32_t rows = patch_classes[push.grid_x + patch / push.grid_x];
     uint32_t hits = 0;
-    for (uint32_t c = 0; c < push.chunks; ++c) hits += table[c * push.patches + patch];
+    for (uint32_t c = 0; c < push.chunks; ++c) {
+      const auto sum = [&](uint32_t row, uint32_t column) {
+        return sums[size_t{c} * push.class_words + row * push.class_columns + column];
+      };
+      uint32_t& count = table[c * push.patches + patch];
+      count = sum(rows >> 16, columns >> 16) - sum(rows >> 16, columns & 0xFFFF) -
+              sum(rows & 0xFFFF, columns >> 16) + sum(rows & 0xFFFF, columns & 0xFFFF);
+      hits += count;
+    }
     const int64_t overwritten = std::max<int64_t>(0, int64_t{hits} - push.capacity);
     int64_t rank = 0;
     for (uint32_t c = 0; c < push.chunks; ++c) {
@@ -22,6 +33,7 @@ void scarf_scan(std::span<uint32_t> table, std::span<uint32_t> heads, std::span<
     }
     heads[patch] = (heads[patch] + hits) % push.capacity;
     totals[patch] += hits;
+    if (hits != 0) dirty[patch] = 1;
   }
 }
 

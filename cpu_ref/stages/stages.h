@@ -2,6 +2,7 @@
 // device and the reference can be traced to one stage. Plain loops.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -10,22 +11,30 @@
 
 namespace scarf::stages {
 
-/// shaders/scarf_count.comp, and scarf_integrate.comp where that follows: adds the hits of each chunk on each
-/// patch to `table` (chunk-major, push.patches).
-void scarf_count(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
-                 const layout::BatchPush& push);
+/// shaders/scarf_count.comp: adds the events of each chunk in each class of pixels (see PixelClasses).
+void scarf_count(std::span<const Event> events, std::span<const uint32_t> classes,
+                 std::span<uint32_t> class_counts, const layout::BatchPush& push);
 
-/// shaders/scarf_scan.comp: hit counts become cursors; heads and totals advance.
-void scarf_scan(std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
-                const layout::ScanPush& push);
+/// shaders/scarf_sum.comp: running sums along lines.
+void scarf_sum(std::span<uint32_t> class_counts, const layout::SumPush& push);
+
+/// shaders/scarf_scan.comp: sums of classes become cursors (chunk-major, push.patches); heads and totals
+/// advance.
+void scarf_scan(std::span<const uint32_t> sums, std::span<const uint32_t> patch_classes,
+                std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
+                std::span<uint32_t> dirty, const layout::ScanPush& push);
 
 /// shaders/scarf_prune.comp: for each chunk and first patch of a field, 1 if an event there may have a
 /// surviving hit. The twin of place needs no such flags: dead hits are dead without them.
 void scarf_prune(std::span<const uint32_t> table, std::span<uint32_t> alive, const layout::PrunePush& push);
 
-/// shaders/scarf_place.comp: stores the hits that survive the batch, and keeps the count image.
+/// shaders/scarf_place.comp: stores the hits that survive the batch, and the positions that paint needs.
 void scarf_place(std::span<const Event> events, std::span<const uint32_t> ranges, std::span<uint32_t> table,
-                 std::span<uint64_t> slots, std::span<int32_t> counts, const layout::BatchPush& push);
+                 std::span<uint64_t> slots, std::span<uint8_t> positions, const layout::BatchPush& push);
+
+/// shaders/scarf_paint.comp: the pictures of dirty cells.
+void scarf_paint(std::span<const uint8_t> positions, std::span<uint32_t> dirty, std::span<uint8_t> picture,
+                 const layout::PaintPush& push);
 
 /// shaders/scarf_render.comp: adds the active events of slots push.slot_begin .. push.slot_end - 1.
 void scarf_render(std::span<const uint64_t> slots, std::span<const uint64_t> totals,

@@ -1,4 +1,4 @@
-// The walk over a batch that the twins of count and place share.
+// The walk over the hits of a batch.
 #pragma once
 
 #include <algorithm>

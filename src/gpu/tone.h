@@ -27,6 +27,8 @@ class Tone {
   void record_u8(vulkan::Commands& commands, const Source& source, uint64_t pixels) const;
   void record_float(vulkan::Commands& commands, const Source& source, uint64_t pixels) const;
   const vulkan::Buffer& picture() const { return picture_; }
+  /// With the levels of the first numbers.
+  const layout::TonePush& first_levels() const { return first_levels_; }
 
  private:
   layout::TonePush push(uint64_t pixels) const;

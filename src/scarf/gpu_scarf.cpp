@@ -117,7 +117,8 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
           };
           const vulkan::Buffer& totals = pipeline_.totals();
           const vulkan::Buffer& slots = pipeline_.slots();
-          return Answer<Snapshot>{{{&totals, totals.size()}, {&slots, slots.size()}}, read};
+          const uint64_t state_bytes = geometry_.patches() * geometry_.capacity * sizeof(uint64_t);
+          return Answer<Snapshot>{{{&totals, totals.size()}, {&slots, state_bytes}}, read};
         });
   }
 
@@ -173,7 +174,7 @@ Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> con
   const auto levels = make_levels(accumulation, geometry.capacity);
   if (!levels) return levels.error();
   vulkan::Device& device = context->vulkan();
-  const auto plan = make_plan(*checked, device.limits(), options);
+  const auto plan = make_plan(*checked, levels->u8, device.limits(), options);
   if (!plan) return plan.error();
   auto pipeline = ScarfPipeline::create(device, *checked, *levels, *plan);
   if (!pipeline) return pipeline.error();

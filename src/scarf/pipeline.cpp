@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/ceil_div.h"
 #include "core/words.h"
+#include "scarf/pixel_classes.h"
 #include "shaders/shaders.h"
 
 namespace scarf {
@@ -33,48 +35,65 @@ Result<std::unique_ptr<ScarfPipeline>> ScarfPipeline::create(vulkan::Device& dev
 void ScarfPipeline::build(PipelineBuilder& b, const Levels& levels) {
   const uint64_t patches = plan_.patches;
   const uint64_t plane = pixels(PolarityMode::merged);
-  b.buffer(slots_, "the ring buffers (patches x capacity)", ring_slots(geometry_) * 8);
-  b.buffer(table_, "the table of chunks and patches", plan_.table_words() * kWord);
+  const uint64_t unused = plan_.most_invocations();
+  b.buffer(slots_, "the ring buffers (patches x capacity)", (ring_slots(geometry_) + unused) * 8);
+  b.buffer(class_counts_, "the table of chunks and classes of pixels",
+           uint64_t{plan_.max_chunks} * plan_.class_words() * kWord);
+  b.buffer(table_, "the table of chunks and patches", (plan_.table_words() + unused) * kWord);
   b.buffer(alive_, "the table of chunks and surviving events", plan_.table_words() * kWord);
   b.buffer(heads_, "the ring heads", patches * kWord);
   b.buffer(totals_, "the totals", patches * 8);
-  b.buffer(counts_, "the count image", plane * kWord);
-  b.buffer(polarity_counts_, "the count image by polarity (two planes)", 2 * plane * kWord);
+  b.buffer(dirty_, "the marks of changed patches", patches * kWord);
+  b.buffer(counts_, "the count image (two planes)", 2 * plane * kWord);
+  // One byte behind the pictures's pixels takes those of cells that are not on the sensor.
+  b.buffer(painted_, "the 8-bit picture", plane / 4 * 4 + 4);
+  b.buffer(positions_, "the positions of active events", position_bytes() + 8 * unused);
   b.buffer(cursors_, "the places of extracted events", patches * kWord);
   b.table<uint32_t>(ranges_, "the patch ranges", patch_ranges(geometry_));
+  PixelClasses columns = pixel_classes(geometry_.x);
+  PixelClasses rows = pixel_classes(geometry_.y);
+  columns.of_pixel.insert(columns.of_pixel.end(), rows.of_pixel.begin(), rows.of_pixel.end());
+  columns.of_patch.insert(columns.of_patch.end(), rows.of_patch.begin(), rows.of_patch.end());
+  b.table<uint32_t>(pixel_classes_, "the classes of pixels", columns.of_pixel);
+  b.table<uint32_t>(patch_classes_, "the classes of patches", columns.of_patch);
   tone_.build(b, levels, 2 * plane);
 
-  const uint32_t team[] = {plan_.workgroup_size(), plan_.team_x, plan_.team_y, plan_.lane_columns,
-                           plan_.lane_rows};
+  const uint32_t team[] = {plan_.workgroup_size(), plan_.team_x,    plan_.team_y,
+                           plan_.lane_columns,     plan_.lane_rows, plan_.paints ? 1U : 0U};
   b.kernel(count_, "scarf_count", shaders::scarf_count, 3, sizeof(layout::BatchPush));
-  b.kernel(integrate_, "scarf_integrate", shaders::scarf_integrate, 1, sizeof(layout::IntegratePush));
-  b.kernel(scan_, "scarf_scan", shaders::scarf_scan, 3, sizeof(layout::ScanPush));
+  b.kernel(sum_, "scarf_sum", shaders::scarf_sum, 1, sizeof(layout::SumPush));
+  b.kernel(scan_, "scarf_scan", shaders::scarf_scan, 6, sizeof(layout::ScanPush));
   b.kernel(prune_, "scarf_prune", shaders::scarf_prune, 2, sizeof(layout::PrunePush));
   b.kernel(clear_, "scarf_clear", shaders::scarf_clear, 1, sizeof(layout::ClearPush));
   b.kernel(place_, "scarf_place", shaders::scarf_place, 6, sizeof(layout::BatchPush), team,
            /*whole_subgroups=*/true);
   b.kernel(render_, "scarf_render", shaders::scarf_render, 3, sizeof(layout::PatchPush));
+  b.kernel(paint_, "scarf_paint", shaders::scarf_paint, 3, sizeof(layout::PaintPush));
   b.kernel(extract_count_, "scarf_extract_count", shaders::scarf_extract_count, 3, sizeof(layout::PatchPush));
   b.kernel(extract_scan_, "scarf_extract_scan", shaders::scarf_extract_scan, 2, sizeof(layout::PatchPush));
   b.kernel(extract_write_, "scarf_extract_write", shaders::scarf_extract_write, 6, sizeof(layout::PatchPush));
 
-  b.bind(bound_integrate_, integrate_, {&table_});
-  b.bind(bound_scan_, scan_, {&table_, &heads_, &totals_});
+  b.bind(bound_sum_, sum_, {&class_counts_});
+  b.bind(bound_scan_, scan_, {&class_counts_, &patch_classes_, &table_, &heads_, &totals_, &dirty_});
   b.bind(bound_prune_, prune_, {&table_, &alive_});
   b.bind(bound_clear_, clear_, {&slots_});
-  b.bind(bound_render_, render_, {&slots_, &totals_, &polarity_counts_});
+  b.bind(bound_render_, render_, {&slots_, &totals_, &counts_});
+  b.bind(bound_paint_, paint_, {&positions_, &dirty_, &painted_});
   b.bind(bound_extract_count_, extract_count_, {&slots_, &totals_, &cursors_});
-  tone_.bind(b, merged_, counts_);
-  tone_.bind(b, by_polarity_, polarity_counts_);
+  tone_.bind(b, bound_tone_, counts_);
 }
 
 Result<std::unique_ptr<EventBinding>> ScarfPipeline::bind_events(const Buffer& events) {
   auto k = std::make_unique<PushKernels>();
   PipelineBuilder b(device_);
-  b.bind(k->count, count_, {&events, &ranges_, &table_});
-  b.bind(k->place, place_, {&events, &ranges_, &table_, &slots_, &alive_, &counts_});
+  b.bind(k->count, count_, {&events, &pixel_classes_, &class_counts_});
+  b.bind(k->place, place_, {&events, &ranges_, &table_, &slots_, &alive_, &positions_});
   if (!b.result()) return b.result().error();
   return std::unique_ptr<EventBinding>(std::move(k));
+}
+
+uint64_t ScarfPipeline::position_bytes() const {
+  return plan_.paints ? uint64_t{plan_.patches} * plan_.position_groups * layout::kSlotsPerGroup : 0;
 }
 
 uint64_t ScarfPipeline::half_events() const {
@@ -96,7 +115,10 @@ Result<std::unique_ptr<ExtractTarget>> ScarfPipeline::make_extract_target() cons
 void ScarfPipeline::record_reset(Commands& commands) {
   commands.fill(heads_, 0);
   commands.fill(totals_, 0);
-  commands.fill(counts_, 0);
+  commands.fill(dirty_, 0);
+  commands.fill(painted_, 0);
+  commands.fill(positions_, UINT32_MAX);
+  commands.fill(table_, layout::kCursorDead);  // for the entries behind those of chunks
   const layout::ClearPush push = {static_cast<uint32_t>(ring_slots(geometry_))};
   commands.dispatch(bound_clear_, push.slots, layout::kLinearGroup, push);
   commands.mark("reset");
@@ -111,17 +133,24 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
   push.chunks = chunking.chunks;
   push.width = geometry_.x.size;
   push.height = geometry_.y.size;
+  push.class_columns = plan_.class_columns;
+  push.class_words = plan_.class_words();
   push.grid_x = geometry_.x.grid;
   push.patches = plan_.patches;
-  push.count_corners = plan_.count_corners ? 1 : 0;
-  push.prune = chunking.prune ? 1 : 0;
   push.field_x = geometry_.x.field_begin(0);
   push.field_y = geometry_.y.field_begin(0);
-  push.margin_lo_x = geometry_.x.margin_lo;
-  push.margin_lo_y = geometry_.y.margin_lo;
   push.cell_x = geometry_.x.cell;
   push.cell_y = geometry_.y.cell;
   push.capacity = geometry_.capacity;
+  push.prune = chunking.prune ? 1 : 0;
+  push.stripes = plan_.stripes;
+  push.unused_entry = static_cast<uint32_t>(plan_.table_words());
+  push.unused_slot = static_cast<uint32_t>(ring_slots(geometry_));
+  push.margin_lo_x = geometry_.x.margin_lo;
+  push.margin_lo_y = geometry_.y.margin_lo;
+  push.row_bytes = 4 * plan_.cell_row_words;
+  push.ring_bytes = layout::kSlotsPerGroup * plan_.position_groups;
+  push.unused_position = static_cast<uint32_t>(position_bytes());
   push.t_first_low = low_word(t_first);
   push.t_first_high = high_word(t_first);
   return push;
@@ -129,25 +158,29 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
 
 void ScarfPipeline::record_count(Commands& commands, const PushKernels& kernels,
                                  const layout::BatchPush& push) const {
-  commands.fill(table_, uint64_t{push.chunks} * plan_.patches * kWord, 0);
+  commands.fill(class_counts_, uint64_t{push.chunks} * push.class_words * kWord, 0);
   commands.barrier();
   commands.mark("clear");
   commands.dispatch(kernels.count, push.events, layout::kLinearGroup, push);
   commands.barrier();
   commands.mark("count");
-  if (push.count_corners == 0) return;
-  const uint32_t grid_y = push.patches / push.grid_x;
-  const layout::IntegratePush rows = {push.patches, push.chunks, grid_y, push.grid_x, push.grid_x, 1};
-  const layout::IntegratePush columns = {push.patches, push.chunks, push.grid_x, 1, grid_y, push.grid_x};
-  for (const layout::IntegratePush& lines : {rows, columns}) {
-    commands.dispatch(bound_integrate_, uint64_t{lines.chunks} * lines.lines, layout::kLinearGroup, lines);
+}
+
+void ScarfPipeline::record_sum(Commands& commands, const layout::BatchPush& push) const {
+  const uint32_t columns = plan_.class_columns;
+  const uint32_t rows = plan_.class_rows;
+  const layout::SumPush along_rows = {push.chunks, push.class_words, rows, columns, columns, 1};
+  const layout::SumPush along_columns = {push.chunks, push.class_words, columns, 1, rows, columns};
+  for (const layout::SumPush& lines : {along_rows, along_columns}) {
+    commands.dispatch(bound_sum_, uint64_t{lines.chunks} * lines.lines, layout::kLinearGroup, lines);
     commands.barrier();
   }
-  commands.mark("integrate");
+  commands.mark("sum");
 }
 
 void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& push) const {
-  const layout::ScanPush scan = {push.patches, push.chunks, push.capacity};
+  const layout::ScanPush scan = {push.patches, push.chunks,        push.capacity,
+                                 push.grid_x,  push.class_columns, push.class_words};
   commands.dispatch(bound_scan_, plan_.patches, layout::kLinearGroup, scan);
   commands.barrier();
   commands.mark("scan");
@@ -164,7 +197,8 @@ void ScarfPipeline::record_prune(Commands& commands, const layout::BatchPush& pu
 
 void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels,
                                  const layout::BatchPush& push) const {
-  commands.dispatch(kernels.place, uint64_t{push.chunks} * plan_.team_lanes(), plan_.workgroup_size(), push);
+  const uint64_t teams = uint64_t{ceil_div(push.chunks, push.stripes)} * push.stripes;
+  commands.dispatch(kernels.place, teams * plan_.team_lanes(), plan_.workgroup_size(), push);
   commands.barrier();
   commands.mark("place");
 }
@@ -174,6 +208,7 @@ void ScarfPipeline::record_push(Commands& commands, EventBinding& binding, uint3
   const auto& kernels = static_cast<const PushKernels&>(binding);
   const layout::BatchPush push = batch_push(first, count, facts.first.value_or(0));
   record_count(commands, kernels, push);
+  record_sum(commands, push);
   record_scan(commands, push);
   record_prune(commands, push);
   record_place(commands, kernels, push);
@@ -197,11 +232,31 @@ layout::PatchPush ScarfPipeline::patch_push(uint32_t first, uint32_t count) cons
   return push;
 }
 
+layout::PaintPush ScarfPipeline::paint_push() const {
+  const GridAxis& x = geometry_.x;
+  const GridAxis& y = geometry_.y;
+  layout::PaintPush push{};
+  push.patches = plan_.patches;
+  push.grid_x = x.grid;
+  push.groups = plan_.position_groups;
+  push.cell_begin_x = x.origin;
+  push.cell_begin_y = y.origin;
+  push.cell_x = x.cell;
+  push.cell_y = y.cell;
+  push.row_words = plan_.cell_row_words;
+  push.width = x.size;
+  push.height = y.size;
+  push.levels_0_to_3 = tone_.first_levels().levels_0_to_3;
+  push.levels_4_to_7 = tone_.first_levels().levels_4_to_7;
+  return push;
+}
+
 const Buffer& ScarfPipeline::record_counts(Commands& commands, PolarityMode mode) const {
-  if (mode == PolarityMode::merged) return counts_;
   layout::PatchPush push = patch_push(0, plan_.patches);
-  push.mode = mode == PolarityMode::separate ? layout::kModeSeparate : layout::kModeDifference;
-  commands.fill(polarity_counts_, 0);
+  push.mode = mode == PolarityMode::separate     ? layout::kModeSeparate
+              : mode == PolarityMode::difference ? layout::kModeDifference
+                                                 : layout::kModeMerged;
+  commands.fill(counts_, pixels(mode) * kWord, 0);
   commands.barrier();
   for (uint32_t begin = 0; begin < push.capacity; begin += layout::kSlotsPerDispatch) {
     push.slot_begin = begin;
@@ -210,7 +265,7 @@ const Buffer& ScarfPipeline::record_counts(Commands& commands, PolarityMode mode
     commands.barrier();
   }
   commands.mark("render");
-  return polarity_counts_;
+  return counts_;
 }
 
 uint64_t ScarfPipeline::pixels(PolarityMode mode) const {
@@ -218,19 +273,22 @@ uint64_t ScarfPipeline::pixels(PolarityMode mode) const {
   return planes * geometry_.x.size * geometry_.y.size;
 }
 
-const Tone::Source& ScarfPipeline::source(PolarityMode mode) const {
-  return mode == PolarityMode::separate ? by_polarity_ : merged_;
-}
-
 const Buffer& ScarfPipeline::record_u8(Commands& commands, PolarityMode mode) const {
+  if (mode == PolarityMode::merged && plan_.paints) {
+    const layout::PaintPush push = paint_push();
+    commands.dispatch(bound_paint_, plan_.patches, layout::kLinearGroup, push);
+    commands.barrier();
+    commands.mark("paint");
+    return painted_;
+  }
   record_counts(commands, mode);
-  tone_.record_u8(commands, source(mode), pixels(mode));
+  tone_.record_u8(commands, bound_tone_, pixels(mode));
   return picture();
 }
 
 const Buffer& ScarfPipeline::record_float(Commands& commands, PolarityMode mode) const {
   record_counts(commands, mode);
-  tone_.record_float(commands, source(mode), pixels(mode));
+  tone_.record_float(commands, bound_tone_, pixels(mode));
   return picture();
 }
 

@@ -40,7 +40,7 @@ class ScarfPipeline : public Pipeline {
   uint32_t submission_events() const override { return plan_.submission_events; }
   Result<std::unique_ptr<EventBinding>> bind_events(const vulkan::Buffer& events) override;
   void record_reset(vulkan::Commands& commands) override;
-  /// count, integrate and prune (where they pay), scan, place.
+  /// count, sum, scan, prune (where it pays), place.
   void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
                    const StreamFacts& facts) override;
   uint64_t memory_bytes() const override { return bytes_; }
@@ -48,15 +48,17 @@ class ScarfPipeline : public Pipeline {
   Result<std::unique_ptr<ExtractTarget>> make_extract_target() const;
   /// The stages of record_push one by one, and what render and extract are given, for tests.
   layout::PatchPush patch_push(uint32_t first, uint32_t count) const;
+  layout::PaintPush paint_push() const;
   layout::BatchPush batch_push(uint32_t first, uint32_t count, int64_t t_first) const;
   void record_count(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
+  void record_sum(vulkan::Commands& commands, const layout::BatchPush& push) const;
   void record_scan(vulkan::Commands& commands, const layout::BatchPush& push) const;
   void record_prune(vulkan::Commands& commands, const layout::BatchPush& push) const;
   void record_place(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
-  /// Images of the state, each in the buffer that is returned: counts (render, unless they are kept anyway),
-  /// and brightness (tone). PolarityMode::difference is for counts only.
+  /// Images of the state, each in the buffer that is returned: counts (render) and brightness (paint; or
+  /// render and tone). PolarityMode::difference is for counts only.
   const vulkan::Buffer& record_counts(vulkan::Commands& commands, PolarityMode mode) const;
   const vulkan::Buffer& record_u8(vulkan::Commands& commands, PolarityMode mode) const;
   const vulkan::Buffer& record_float(vulkan::Commands& commands, PolarityMode mode) const;
@@ -65,6 +67,10 @@ class ScarfPipeline : public Pipeline {
                       bool active_only, int64_t t_first) const;
 
   uint64_t half_events() const;
+  uint64_t position_bytes() const;
+  const vulkan::Buffer& class_counts() const { return class_counts_; }
+  const vulkan::Buffer& positions() const { return positions_; }
+  const vulkan::Buffer& dirty() const { return dirty_; }
   const vulkan::Buffer& table() const { return table_; }
   const vulkan::Buffer& alive() const { return alive_; }
   const vulkan::Buffer& heads() const { return heads_; }
@@ -78,20 +84,20 @@ class ScarfPipeline : public Pipeline {
       : device_(device), geometry_(geometry), plan_(plan) {}
   void build(PipelineBuilder& builder, const Levels& levels);
   uint64_t pixels(PolarityMode mode) const;
-  const Tone::Source& source(PolarityMode mode) const;
 
   vulkan::Device& device_;
   const Geometry geometry_;
   const Plan plan_;
   uint64_t bytes_ = 0;
   // Buffers before kernels before bindings: each is destroyed after what uses it.
-  vulkan::Buffer ranges_, table_, alive_, heads_, totals_, slots_, counts_, polarity_counts_, cursors_;
+  vulkan::Buffer ranges_, pixel_classes_, patch_classes_, class_counts_, table_, alive_, heads_, totals_,
+      slots_, dirty_, counts_, painted_, positions_, cursors_;
   Tone tone_;
-  vulkan::Kernel clear_, count_, integrate_, scan_, prune_, place_, render_, extract_count_, extract_scan_,
+  vulkan::Kernel clear_, count_, sum_, scan_, prune_, place_, render_, paint_, extract_count_, extract_scan_,
       extract_write_;
-  vulkan::BoundKernel bound_clear_, bound_integrate_, bound_scan_, bound_prune_, bound_render_,
+  vulkan::BoundKernel bound_clear_, bound_sum_, bound_scan_, bound_prune_, bound_render_, bound_paint_,
       bound_extract_count_;
-  Tone::Source merged_, by_polarity_;
+  Tone::Source bound_tone_;
 };
 
 }  // namespace scarf

@@ -5,14 +5,11 @@
 
 #include "core/text.h"
 #include "gpu/submission.h"
+#include "scarf/pixel_classes.h"
 #include "shaders/layout.h"
 
 namespace scarf {
 namespace {
-
-uint32_t ceil_div(uint64_t a, uint64_t b) {
-  return static_cast<uint32_t>((a + b - 1) / b);
-}
 
 // Most patches of one axis that hold the same pixel.
 uint32_t most_holders(const GridAxis& axis) {
@@ -24,26 +21,37 @@ uint32_t most_holders(const GridAxis& axis) {
   return static_cast<uint32_t>(most);
 }
 
-// The table is cleared, summed and walked for every submission, so more of it is not better.
+// Counts and cursors of all chunks are written and summed for every submission, so more of them is not
+// better.
 constexpr uint64_t kTableBytesCpu = uint64_t{32} << 20;
 constexpr uint64_t kTableBytesGpu = uint64_t{256} << 20;
-// Chunks that keep every core of a CPU device, or every multiprocessor of a GPU, busy.
-constexpr uint32_t kTargetChunksCpu = 16;
+// Chunks for each core of a CPU device: as many as keep the counts of all chunks small, within a range.
+constexpr uint32_t kLeastChunksPerCore = 2;
+constexpr uint32_t kMostChunksPerCore = 16;
+constexpr uint32_t kTargetCountsCpu = 1u << 16;
+// Chunks that keep every multiprocessor of a GPU busy.
 constexpr uint32_t kTargetChunksGpu = 2048;
 
 constexpr uint64_t kPruneHitsPerSlot = 4;
-// An atomic on a CPU device costs as much as two loads; the sums over corners cost some of each.
-constexpr uint32_t kMostHitsCountedOneByOne = 6;
+
+// Levels that do not change beyond those that travel as push constants.
+bool few(std::span<const uint8_t> levels) {
+  constexpr size_t kLast = layout::kPushedLevels - 1;
+  if (levels.size() <= kLast) return false;
+  return std::all_of(levels.begin() + kLast, levels.end(),
+                     [&](uint8_t level) { return level == levels[kLast]; });
+}
 
 constexpr uint32_t kMaxTeamLanes = 32;  // see team_ballot() in shaders/team.glsl
 
 }  // namespace
 
 uint32_t trips_per_block(const Plan& plan) {
-  // A loop costs its trips and one for its entry: blocks of events, events, rows and columns of patches.
-  const uint32_t columns = plan.lane_columns + 1;
-  const uint32_t rows = plan.lane_rows * (1 + columns) + 1;
-  return 1 + plan.team_lanes() * (1 + rows) + 1;
+  // A loop costs its trips and one for its entry: blocks, the search for one that is walked, events, and
+  // where a lane owns many patches of an event, rows and columns of them.
+  uint32_t rows = 0;
+  if (plan.lane_columns > 1 || plan.lane_rows > 2) rows = plan.lane_rows * (1 + plan.lane_columns + 1) + 1;
+  return 1 + 2 + plan.team_lanes() * (1 + rows) + 1;
 }
 
 Chunking Plan::cut(uint32_t events) const {
@@ -56,7 +64,8 @@ Chunking Plan::cut(uint32_t events) const {
   return {chunk, ceil_div(events, chunk), prune};
 }
 
-Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, const GpuOptions& options) {
+Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels,
+                       const vulkan::Limits& limits, const GpuOptions& options) {
   if (geometry.patches() > kMaxPatches) {
     return Error{ErrorCode::out_of_memory,
                  text("the grid has ", geometry.patches(), " patches, a device stream at most ", kMaxPatches,
@@ -75,18 +84,28 @@ Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, c
   plan.lane_rows = ceil_div(plan.most_rows, plan.team_y);
   plan.teams_per_workgroup = limits.subgroup_size / plan.team_lanes();
 
-  plan.count_corners = plan.most_columns * plan.most_rows > kMostHitsCountedOneByOne;
+  plan.class_columns = pixel_classes(geometry.x).count;
+  plan.class_rows = pixel_classes(geometry.y).count;
+  plan.stripes = limits.cores;
+  plan.cell_row_words = ceil_div(static_cast<uint32_t>(geometry.x.cell), 4);
+  plan.position_groups = ceil_div(plan.capacity, layout::kSlotsPerGroup);
+  plan.paints =
+      plan.capacity <= 255 && plan.cell_row_words * geometry.y.cell <= layout::kPaintWords && few(levels);
 
   // 8: the entry of the loop over blocks, and loops of the compiler itself.
   const uint32_t blocks = (limits.loop_trips - 8) / trips_per_block(plan);
   plan.max_chunk_events = static_cast<uint32_t>(
       std::min<uint64_t>(layout::kMaxChunkEvents, uint64_t{blocks} * plan.team_lanes()));
   const uint64_t table_bytes = std::min(limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range);
-  const uint64_t chunks_that_fit = table_bytes / (uint64_t{plan.patches} * sizeof(uint32_t));
+  const uint64_t words = std::max(plan.patches, plan.class_words());
+  const uint64_t chunks_that_fit = table_bytes / (words * sizeof(uint32_t));
   const uint32_t scan_budget = (limits.loop_trips - 8) / 2 - 1;  // the scan walks the chunks twice
   plan.max_chunks =
       static_cast<uint32_t>(std::clamp<uint64_t>(chunks_that_fit, 1, std::min(scan_budget, 1u << 16)));
-  plan.target_chunks = std::min(plan.max_chunks, limits.cpu ? kTargetChunksCpu : kTargetChunksGpu);
+  const uint32_t chunks_per_core = std::clamp(kTargetCountsCpu / plan.class_words() / limits.cores,
+                                              kLeastChunksPerCore, kMostChunksPerCore);
+  plan.target_chunks =
+      std::min(plan.max_chunks, limits.cpu ? chunks_per_core * limits.cores : kTargetChunksGpu);
 
   plan.forced_chunk_events = std::min(options.chunk_events, plan.max_chunk_events);
   const uint32_t longest = plan.forced_chunk_events != 0 ? plan.forced_chunk_events : plan.max_chunk_events;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/ceil_div.h"
 #include "scarf/geometry.h"
 #include "scarf/gpu.h"
 #include "scarf/result.h"
@@ -41,8 +43,13 @@ struct Plan {
   uint32_t max_chunk_events = 0;   ///< most events of one chunk
   uint32_t max_chunks = 0;         ///< most chunks of one submission
 
-  /// An event's rectangle of patches is counted by its corners, not patch by patch.
-  bool count_corners = false;
+  uint32_t class_columns = 1;  ///< classes of columns and of rows, class 0 included; see PixelClasses
+  uint32_t class_rows = 1;
+  uint32_t stripes = 1;  ///< see shaders/team.glsl
+
+  bool paints = false;           ///< 8-bit pictures come from the paint stage, which keeps them
+  uint32_t cell_row_words = 0;   ///< of the positions that it needs; see kNotShown in shaders/layout.h
+  uint32_t position_groups = 0;  ///< per patch
 
   uint32_t forced_chunk_events = 0;  ///< from the options; 0: free
   uint32_t target_chunks = 0;        ///< chunks that keep the device busy
@@ -51,6 +58,12 @@ struct Plan {
   uint32_t workgroup_size() const { return team_lanes() * teams_per_workgroup; }
   /// Words of the (chunk, patch) table.
   uint64_t table_words() const { return uint64_t{patches} * max_chunks; }
+  /// Words of the counts per class of one chunk.
+  uint32_t class_words() const { return class_columns * class_rows; }
+  /// Most invocations of the place stage, those of unfinished workgroups included.
+  uint64_t most_invocations() const {
+    return uint64_t{ceil_div(max_chunks, stripes) * stripes + teams_per_workgroup} * team_lanes();
+  }
   /// Cuts a submission of `events` (at most submission_events).
   Chunking cut(uint32_t events) const;
 };
@@ -59,8 +72,10 @@ struct Plan {
 /// team has lanes.
 uint32_t trips_per_block(const Plan& plan);
 
-/// Errors: illegal_parameter for options out of range; out_of_memory, by name, for a grid beyond the device.
-Result<Plan> make_plan(const Geometry& geometry, const vulkan::Limits& limits, const GpuOptions& options);
+/// `levels`: 8-bit brightness of 0, 1, ... events. Errors: illegal_parameter for options out of range;
+/// out_of_memory, by name, for a grid beyond the device.
+Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels,
+                       const vulkan::Limits& limits, const GpuOptions& options);
 
 /// For each column 0 .. width-1 and one column outside, then each row likewise: the patches that hold it, as
 /// first | last << 16; 1 | 0 << 16 where there are none.

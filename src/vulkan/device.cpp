@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <thread>
 
 #include "core/text.h"
 
@@ -140,6 +141,9 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
   calls.GetPhysicalDeviceProperties2(device, &properties);
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  VkPhysicalDeviceVulkan12Features features12{};
+  features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  features.pNext = &features12;
   calls.GetPhysicalDeviceFeatures2(device, &features);
   VkPhysicalDeviceMemoryProperties memory{};
   calls.GetPhysicalDeviceMemoryProperties(device, &memory);
@@ -175,6 +179,8 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
     c.info.rejected = text("has Vulkan ", c.info.api_version, ", scarf needs 1.3: install a newer driver");
   } else if (!features.features.shaderInt64) {
     c.info.rejected = "has no 64-bit integers in shaders (shaderInt64)";
+  } else if (!features12.storageBuffer8BitAccess) {
+    c.info.rejected = "cannot write single bytes in shaders (storageBuffer8BitAccess)";
   } else if ((subgroup.supportedOperations & kSubgroupOperations) != kSubgroupOperations) {
     c.info.rejected = "has no subgroup shuffles and ballots in shaders";
   } else if (c.properties.limits.maxComputeWorkGroupInvocations < kWorkgroupSize) {
@@ -402,6 +408,7 @@ Result<void> Device::choose() {
   limits_.subgroup_size = c.subgroup_size;
   limits_.loop_trips = quirks_of(c.driver).loop_trips;
   limits_.cpu = c.info.type == "cpu";
+  limits_.cores = limits_.cpu ? std::max(1u, std::thread::hardware_concurrency()) : 1;
   limits_.float64 = c.float64;
   limits_.timestamp_period = timestamp_bits == 0 ? 0.0 : l.timestampPeriod;
   limits_.timestamp_mask = timestamp_bits >= 64 ? UINT64_MAX : (uint64_t{1} << timestamp_bits) - 1;
@@ -428,6 +435,7 @@ Result<void> Device::choose() {
   features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
   features12.pNext = &features13;
   features12.timelineSemaphore = VK_TRUE;
+  features12.storageBuffer8BitAccess = VK_TRUE;
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.pNext = &features12;

@@ -20,6 +20,7 @@ struct Limits {
   uint32_t subgroup_size = 0;  ///< required of kernels that ask for whole subgroups
   uint32_t loop_trips = 0;     ///< see Quirks
   bool cpu = false;
+  uint32_t cores = 1;           ///< of a CPU device, which gives consecutive workgroups to one of them
   bool float64 = false;         ///< shaders may use doubles
   double timestamp_period = 0;  ///< nanoseconds per tick; 0: no timestamps
   uint64_t timestamp_mask = 0;

@@ -17,8 +17,11 @@ vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) 
   limits.subgroup_size = subgroup_size;
   limits.loop_trips = loop_trips;
   limits.cpu = cpu;
+  limits.cores = cpu ? 2 : 1;
   return limits;
 }
+
+const std::vector<uint8_t> kLevels = make_levels(0.3, 233)->u8;
 
 // The largest number of trips that one invocation of the place stage takes, the entry of its loop
 // included.
@@ -41,11 +44,12 @@ TEST(Plan, StaysWithinTheLoopBudgetForEveryGeometryAndBatch) {
         const vulkan::Limits limits = limits_of(subgroup, 60'000, true);
         GpuOptions options;
         options.chunk_events = chunk_events;
-        const auto plan = make_plan(g, limits, options);
+        const auto plan = make_plan(g, kLevels, limits, options);
         ASSERT_TRUE(plan) << plan.error().message;
         EXPECT_EQ(plan->workgroup_size(), subgroup);
         EXPECT_LE(plan->team_lanes(), 32u);
         EXPECT_LE(plan->table_words() * 4, limits.storage_range);
+        EXPECT_LE(uint64_t{plan->class_words()} * plan->max_chunks * 4, limits.storage_range);
         EXPECT_LE(2 * (uint64_t{plan->max_chunks} + 1), limits.loop_trips);
         for (uint32_t events : {1u, plan->max_chunk_events, plan->max_chunk_events + 1,
                                 plan->submission_events - 1, plan->submission_events}) {
@@ -67,7 +71,7 @@ TEST(Plan, EveryPatchOfAnEventHasOneLane) {
   for (int trial = 0; trial < 100; ++trial) {
     const Geometry g = test::random_geometry({100, 60}, random);
     for (uint32_t subgroup : {4u, 8u, 32u}) {
-      const Plan plan = *make_plan(g, limits_of(subgroup, UINT32_MAX, false), {});
+      const Plan plan = *make_plan(g, kLevels, limits_of(subgroup, UINT32_MAX, false), {});
       for (int32_t x = 0; x < g.x.size; ++x) {
         const PatchRange range = g.x.patches_holding(x);
         EXPECT_LE(range.last - range.first + 1, static_cast<int32_t>(plan.team_x * plan.lane_columns));
@@ -82,23 +86,37 @@ TEST(Plan, EveryPatchOfAnEventHasOneLane) {
 
 TEST(Plan, PrunesWhereMostHitsAreOverwritten) {
   const vulkan::Limits limits = limits_of(8, 60'000, true);
-  const Plan small = *make_plan(*make_geometry(Preset::paper, {240, 180}), limits, {});
+  const Plan small = *make_plan(*make_geometry(Preset::paper, {240, 180}), kLevels, limits, {});
   EXPECT_TRUE(small.cut(100'000).prune);
   EXPECT_FALSE(small.cut(10'000).prune);
-  const Plan large = *make_plan(*make_geometry(Preset::paper, {1280, 720}), limits, {});
+  const Plan large = *make_plan(*make_geometry(Preset::paper, {1280, 720}), kLevels, limits, {});
   EXPECT_FALSE(large.cut(100'000).prune);
 }
 
-TEST(Plan, CountsCornersWhereAnEventHasManyPatches) {
+TEST(Plan, PaintsSmallCellsOfFewLevels) {
   const vulkan::Limits limits = limits_of(8, 60'000, true);
-  EXPECT_TRUE(make_plan(*make_geometry(Preset::paper, {240, 180}), limits, {})->count_corners);
-  EXPECT_FALSE(make_plan(*make_geometry(Preset::light, {240, 180}), limits, {})->count_corners);
+  const Geometry small = *make_geometry(Preset::paper, {240, 180});
+  EXPECT_TRUE(make_plan(small, kLevels, limits, {})->paints);
+  EXPECT_FALSE(make_plan(small, make_levels(0.01, 233)->u8, limits, {})->paints);
+  const Geometry large = *make_geometry(Preset::paper, {240, 180}, {.cell = 16, .ratio = 0.2, .alpha = 1});
+  EXPECT_FALSE(make_plan(large, kLevels, limits, {})->paints);
+  const Geometry deep = *make_geometry(Preset::paper, {240, 180}, {.alpha = 2.2});
+  EXPECT_GT(deep.capacity, 255);
+  EXPECT_FALSE(make_plan(deep, kLevels, limits, {})->paints);
+}
+
+TEST(Plan, FewerChunksWhereTheirCountsAreLarge) {
+  const vulkan::Limits limits = limits_of(8, 60'000, true);
+  const Plan small = *make_plan(*make_geometry(Preset::paper, {240, 180}), kLevels, limits, {});
+  const Plan large = *make_plan(*make_geometry(Preset::paper, {1280, 720}), kLevels, limits, {});
+  EXPECT_GT(small.target_chunks, large.target_chunks);
+  EXPECT_EQ(large.target_chunks, 4u);
 }
 
 TEST(Plan, RefusesOptionsOutOfRangeByName) {
   const Geometry g = *make_geometry(Preset::paper, {64, 48});
   const auto message = [&](GpuOptions options) {
-    const auto plan = make_plan(g, limits_of(8, 60'000, true), options);
+    const auto plan = make_plan(g, kLevels, limits_of(8, 60'000, true), options);
     return plan ? std::string("accepted") : plan.error().message;
   };
   GpuOptions slots;
@@ -114,7 +132,7 @@ TEST(Plan, RefusesOptionsOutOfRangeByName) {
 
 TEST(Plan, RefusesAGridBeyondTheDeviceByName) {
   const Geometry g = *checked_geometry({{16'384, 4, 0, 4096, 0, 0}, {16'384, 4, 0, 4096, 0, 0}, 1});
-  const auto plan = make_plan(g, limits_of(8, 60'000, true), {});
+  const auto plan = make_plan(g, kLevels, limits_of(8, 60'000, true), {});
   ASSERT_FALSE(plan);
   EXPECT_EQ(plan.error().code, ErrorCode::out_of_memory);
   EXPECT_NE(plan.error().message.find("16777216 patches"), std::string::npos);

@@ -8,6 +8,7 @@
 
 #include "core/packed_event.h"
 #include "scarf/pipeline.h"
+#include "scarf/pixel_classes.h"
 #include "tests/support/context.h"
 #include "tests/support/same.h"
 #include "tests/support/streams.h"
@@ -25,16 +26,25 @@ class Stages : public test::DeviceTest {
   void use(const Geometry& geometry, const GpuOptions& options) {
     geometry_ = geometry;
     vulkan::Device& device = context_->vulkan();
-    plan_ = test::value_of(make_plan(geometry, device.limits(), options));
-    pipeline_ =
-        test::value_of(ScarfPipeline::create(device, geometry, *make_levels(0.3, geometry.capacity), plan_));
+    levels_ = *make_levels(0.3, geometry.capacity);
+    plan_ = test::value_of(make_plan(geometry, levels_.u8, device.limits(), options));
+    pipeline_ = test::value_of(ScarfPipeline::create(device, geometry, levels_, plan_));
     commands_ = test::value_of(Commands::create(device, device.compute()));
     run([&] { pipeline_->record_reset(commands_); });
     ranges_ = patch_ranges(geometry);
     heads_.assign(plan_.patches, 0);
     totals_.assign(plan_.patches, 0);
     slots_.assign(geometry.patches() * geometry.capacity, kEmptySlot);
-    counts_.assign(size_t{1} * geometry.x.size * geometry.y.size, 0);
+    positions_.assign(pipeline_->position_bytes(), layout::kNotShown);
+    dirty_.assign(plan_.patches, 0);
+    picture_.assign(size_t{1} * geometry.x.size * geometry.y.size, 0);
+    classes_.clear();
+    patch_classes_.clear();
+    for (const GridAxis* axis : {&geometry.x, &geometry.y}) {
+      const PixelClasses classes = pixel_classes(*axis);
+      classes_.insert(classes_.end(), classes.of_pixel.begin(), classes.of_pixel.end());
+      patch_classes_.insert(patch_classes_.end(), classes.of_patch.begin(), classes.of_patch.end());
+    }
   }
 
   template <class Record>
@@ -68,16 +78,26 @@ class Stages : public test::DeviceTest {
     const auto& kernels = static_cast<const PushKernels&>(**binding);
     const layout::BatchPush push = pipeline_->batch_push(0, static_cast<uint32_t>(events.size()), t_first);
 
-    std::vector<uint32_t> table(size_t{push.chunks} * push.patches);
-    stages::scarf_count(events, ranges_, table, push);
+    std::vector<uint32_t> class_counts(size_t{push.chunks} * push.class_words);
+    stages::scarf_count(events, classes_, class_counts, push);
     run([&] { pipeline_->record_count(commands_, kernels, push); });
-    ASSERT_EQ(read_table(push.chunks), table) << "count";
+    ASSERT_EQ(read<uint32_t>(pipeline_->class_counts(), class_counts.size()), class_counts) << "count";
 
-    stages::scarf_scan(table, heads_, totals_, {push.patches, push.chunks, push.capacity});
+    const uint32_t columns = plan_.class_columns;
+    const uint32_t rows = plan_.class_rows;
+    stages::scarf_sum(class_counts, {push.chunks, push.class_words, rows, columns, columns, 1});
+    stages::scarf_sum(class_counts, {push.chunks, push.class_words, columns, 1, rows, columns});
+    run([&] { pipeline_->record_sum(commands_, push); });
+    ASSERT_EQ(read<uint32_t>(pipeline_->class_counts(), class_counts.size()), class_counts) << "sum";
+
+    std::vector<uint32_t> table(size_t{push.chunks} * push.patches);
+    stages::scarf_scan(class_counts, patch_classes_, table, heads_, totals_, dirty_,
+                       {push.patches, push.chunks, push.capacity, push.grid_x, columns, push.class_words});
     run([&] { pipeline_->record_scan(commands_, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "scan";
     ASSERT_EQ(read<uint32_t>(pipeline_->heads(), plan_.patches), heads_) << "scan";
     ASSERT_EQ(read<uint64_t>(pipeline_->totals(), plan_.patches), totals_) << "scan";
+    ASSERT_EQ(read<uint32_t>(pipeline_->dirty(), plan_.patches), dirty_) << "scan";
 
     if (push.prune != 0) {
       std::vector<uint32_t> alive(table.size());
@@ -88,35 +108,44 @@ class Stages : public test::DeviceTest {
       ++pruned_;
     }
 
-    stages::scarf_place(events, ranges_, table, slots_, counts_, push);
+    stages::scarf_place(events, ranges_, table, slots_, positions_, push);
     run([&] { pipeline_->record_place(commands_, kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "place";
     ASSERT_EQ(read<uint64_t>(pipeline_->slots(), slots_.size()), slots_) << "place";
-    ASSERT_EQ(read<int32_t>(pipeline_->record_counts(commands_, PolarityMode::merged), counts_.size()),
-              counts_);
+    if (!plan_.paints) return;
+    ASSERT_EQ(read<uint8_t>(pipeline_->positions(), positions_.size()), positions_) << "place";
+    ++painted_;
+    // Not after every batch, so that marks of several batches meet.
+    if (painted_ % 2 == 0) compare_picture();
+  }
+
+  void compare_picture() {
+    stages::scarf_paint(positions_, dirty_, picture_, pipeline_->paint_push());
+    const Buffer* result = nullptr;
+    run([&] { result = &pipeline_->record_u8(commands_, PolarityMode::merged); });
+    ASSERT_EQ(read<uint8_t>(*result, picture_.size()), picture_) << "paint";
+    ASSERT_EQ(read<uint32_t>(pipeline_->dirty(), plan_.patches), dirty_) << "paint";
   }
 
   void compare_images() {
     layout::PatchPush push = pipeline_->patch_push(0, plan_.patches);
     push.slot_end = push.capacity;
-    const Levels levels = *make_levels(0.3, geometry_.capacity);
     for (PolarityMode mode : {PolarityMode::separate, PolarityMode::difference, PolarityMode::merged}) {
-      std::vector<int32_t> counts = counts_;
-      if (mode != PolarityMode::merged) {
-        counts.assign((mode == PolarityMode::separate ? 2 : 1) * counts_.size(), 0);
-        push.mode = mode == PolarityMode::separate ? layout::kModeSeparate : layout::kModeDifference;
-        stages::scarf_render(slots_, totals_, counts, push);
-      }
+      std::vector<int32_t> counts((mode == PolarityMode::separate ? 2 : 1) * picture_.size(), 0);
+      push.mode = mode == PolarityMode::separate     ? layout::kModeSeparate
+                  : mode == PolarityMode::difference ? layout::kModeDifference
+                                                     : layout::kModeMerged;
+      stages::scarf_render(slots_, totals_, counts, push);
       const Buffer* result = nullptr;
       run([&] { result = &pipeline_->record_counts(commands_, mode); });
       ASSERT_EQ(read<int32_t>(*result, counts.size()), counts) << "render";
       if (mode == PolarityMode::difference) continue;
       std::vector<uint8_t> u8(counts.size());
-      stages::scarf_tone<uint8_t>(counts, levels.u8, u8);
+      stages::scarf_tone<uint8_t>(counts, levels_.u8, u8);
       run([&] { result = &pipeline_->record_u8(commands_, mode); });
       ASSERT_EQ(read<uint8_t>(*result, u8.size()), u8) << "tone";
       std::vector<float> f32(counts.size());
-      stages::scarf_tone<float>(counts, levels.f32, f32);
+      stages::scarf_tone<float>(counts, levels_.f32, f32);
       run([&] { result = &pipeline_->record_float(commands_, mode); });
       ASSERT_EQ(read<float>(*result, f32.size()), f32) << "tone";
     }
@@ -144,13 +173,15 @@ class Stages : public test::DeviceTest {
   }
 
   Geometry geometry_;
+  Levels levels_;
   int pruned_ = 0;  // batches
+  int painted_ = 0;
   Plan plan_;
   std::unique_ptr<ScarfPipeline> pipeline_;
   Commands commands_;
-  std::vector<uint32_t> ranges_, heads_;
+  std::vector<uint32_t> ranges_, classes_, patch_classes_, heads_, dirty_;
   std::vector<uint64_t> totals_, slots_;
-  std::vector<int32_t> counts_;
+  std::vector<uint8_t> positions_, picture_;
 };
 
 TEST_F(Stages, EqualTheirTwins) {
@@ -176,6 +207,8 @@ TEST_F(Stages, EqualTheirTwins) {
   }
   EXPECT_GT(pruned_, 3);
   EXPECT_LT(pruned_, 33);
+  EXPECT_GT(painted_, 5);
+  EXPECT_LT(painted_, 36);
 }
 
 }  // namespace
