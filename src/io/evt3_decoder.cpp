@@ -1,7 +1,6 @@
 #include "io/evt3_decoder.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/little_endian.h"
 
@@ -56,26 +55,17 @@ std::optional<int64_t> Clock::first_high() const {
 void EventDecoder::set_vector(uint32_t mask, uint32_t length) {
   // Beyond every sensor the base stops, so that coordinates never wrap back into it.
   constexpr uint32_t kLastBase = 0xF000;
-  vector_mask_ = brightness_ ? mask : 0;
-  vector_x_ = base_x_;
+  vector_ = {brightness_ ? mask : 0,
+             {clock_.time(), static_cast<uint16_t>(base_x_), static_cast<uint16_t>(y_),
+              static_cast<uint8_t>(base_p_)}};
   base_x_ = std::min(base_x_ + length, kLastBase);
-}
-
-size_t EventDecoder::write_vector(std::span<Event> out) {
-  size_t count = 0;
-  while (vector_mask_ != 0 && count < out.size()) {
-    const auto x = static_cast<uint16_t>(vector_x_ + static_cast<uint32_t>(std::countr_zero(vector_mask_)));
-    out[count++] = {clock_.time(), x, static_cast<uint16_t>(y_), static_cast<uint8_t>(base_p_)};
-    vector_mask_ &= vector_mask_ - 1;
-  }
-  return count;
 }
 
 EventDecoder::Decoded EventDecoder::decode(std::span<const uint8_t> bytes, std::span<Event> out) {
   // A copy, so that the compiler can hold it in registers while events are written.
   EventDecoder s = *this;
   size_t at = s.clock_.start(bytes);
-  size_t count = s.write_vector(out);
+  size_t count = s.vector_.write(out);
   for (; count < out.size() && at + kWordBytes <= bytes.size(); at += kWordBytes) {
     const uint32_t word = word_at(bytes, at);
     const uint32_t type = word >> 12;
@@ -101,11 +91,11 @@ EventDecoder::Decoded EventDecoder::decode(std::span<const uint8_t> bytes, std::
         break;
       case kVect12:
         s.set_vector(word & 0xFFF, 12);
-        count += s.write_vector(out.subspan(count));
+        count += s.vector_.write(out.subspan(count));
         break;
       case kVect8:
         s.set_vector(word & 0xFF, 8);
-        count += s.write_vector(out.subspan(count));
+        count += s.vector_.write(out.subspan(count));
         break;
       case kTimeHigh:
         s.clock_.set_high(word & kPayloadMask);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "io/evt3.h"
+#include "io/pixel_mask.h"
 #include "scarf/event.h"
 #include "scarf/frames.h"
 
@@ -70,15 +71,13 @@ class EventDecoder {
 
  private:
   void set_vector(uint32_t mask, uint32_t length);
-  size_t write_vector(std::span<Event> out);
 
   Clock clock_;
   uint32_t brightness_ = 1;  // rows are of brightness changes, not of kOtherAddrY
   uint32_t y_ = 0;
   uint32_t base_x_ = 0;
   uint32_t base_p_ = 0;
-  uint32_t vector_mask_ = 0;  // events of the last vector that did not fit the output yet ...
-  uint32_t vector_x_ = 0;     // ... bit i of it being pixel vector_x_ + i
+  PixelMask vector_;  // events of the last vector that did not fit the output yet
   uint64_t unknown_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include "core/little_endian.h"
 #include "io/buffered_source.h"
+#include "io/decoded_triggers.h"
 #include "io/evt3.h"
 #include "io/evt3_decoder.h"
 #include "io/known_formats.h"
@@ -46,6 +47,10 @@ Result<std::unique_ptr<EventSource>> open_evt3(Input input, const ReadOptions& o
       std::make_unique<Evt3Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
 }
 
+Result<std::unique_ptr<TriggerSource>> open_evt3_triggers(Input input, const ReadOptions& options) {
+  return make_decoded_triggers(std::move(input), options, evt3::TriggerDecoder());
+}
+
 bool recognise_evt3(const Beginning& beginning) {
   return beginning.last && guess_words(beginning.bytes) == kName;
 }
@@ -84,6 +89,7 @@ const Format kEvt3Format = {.name = kName,
                             .prophesee = true,
                             .recognise = recognise_evt3,
                             .open = open_evt3,
-                            .create = create_evt3};
+                            .create = create_evt3,
+                            .open_triggers = open_evt3_triggers};
 
 }  // namespace scarf

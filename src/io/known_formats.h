@@ -5,8 +5,11 @@
 
 namespace scarf {
 
+extern const Format kDatFormat;
 extern const Format kEvt2Format;
+extern const Format kEvt21Format;
 extern const Format kEvt3Format;
+extern const Format kEvt4Format;
 extern const Format kTextFormat;
 
 }  // namespace scarf

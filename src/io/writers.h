@@ -9,8 +9,11 @@
 namespace scarf {
 
 // Each creates the file; "-" is standard output. The sensor is a legal one. Errors: io.
+Result<std::unique_ptr<EventSink>> create_dat(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor);
+Result<std::unique_ptr<EventSink>> create_evt21(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor);
+Result<std::unique_ptr<EventSink>> create_evt4(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor);
 
 }  // namespace scarf
