@@ -9,6 +9,7 @@
 #include "io/dat.h"
 #include "io/decoded_triggers.h"
 #include "io/known_formats.h"
+#include "io/put_event.h"
 #include "io/sensor_size.h"
 #include "io/writers.h"
 
@@ -47,9 +48,9 @@ class DatReader final : public BufferedSource {
     for (size_t i = 0; i < count; ++i) {
       const auto record = load_little_endian<uint64_t>(bytes.data() + i * dat::kRecordBytes);
       const auto word = static_cast<uint32_t>(record >> 32);
-      out[i] = {clock.unwrap(static_cast<uint32_t>(record)), static_cast<uint16_t>(word & layout.x_mask),
-                static_cast<uint16_t>(word >> layout.y_shift & layout.y_mask),
-                static_cast<uint8_t>((word >> layout.p_shift & layout.p_mask) != 0)};
+      put_event(out[i], clock.unwrap(static_cast<uint32_t>(record)), word & layout.x_mask,
+                word >> layout.y_shift & layout.y_mask,
+                (word >> layout.p_shift & layout.p_mask) != 0 ? 1 : 0);
     }
     clock_ = clock;
     return {count * dat::kRecordBytes, tally_.keep(out.first(count)), count < out.size()};

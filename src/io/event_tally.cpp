@@ -25,8 +25,8 @@ size_t EventTally::keep(std::span<Event> events) {
   return kept;
 }
 
-// Whether there is nothing for a policy to decide: no back-step, and all inside the sensor. Nearly every block is
-// so, and this loop has neither a branch nor a store.
+// Whether there is nothing for a policy to decide: no back-step, and all inside the sensor. Nearly every
+// block is so, and this loop has neither a branch nor a store.
 bool EventTally::is_plain(std::span<const Event> events) const {
   int64_t previous = previous_;
   bool plain = true;

@@ -8,6 +8,7 @@
 #include "io/decoded_triggers.h"
 #include "io/evt2.h"
 #include "io/known_formats.h"
+#include "io/put_event.h"
 #include "io/sensor_size.h"
 #include "io/word_check.h"
 #include "io/word_guess.h"
@@ -66,8 +67,8 @@ BufferedSource::Decoded Evt2Reader::decode(std::span<const uint8_t> bytes, bool 
     if (s.skip > 0) [[unlikely]] {
       --s.skip;
     } else if (type <= evt2::kOn && s.clock.started()) {
-      out[count++] = {s.clock.time(word >> 22), static_cast<uint16_t>(word >> 11 & evt2::kCoordinateMask),
-                      static_cast<uint16_t>(word & evt2::kCoordinateMask), static_cast<uint8_t>(type)};
+      put_event(out[count++], s.clock.time(word >> 22), word >> 11 & evt2::kCoordinateMask,
+                word & evt2::kCoordinateMask, type);
     } else if (type == evt2::kTimeHigh || s.clock.started()) {
       s.other_word(word);
     }

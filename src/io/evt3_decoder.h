@@ -33,6 +33,9 @@ class Clock {
   void set_high(uint32_t value);
   void set_low(uint32_t value) { low_ = value; }
   uint32_t low() const { return low_; }
+  uint32_t high() const { return high_.value(); }
+  /// Microseconds, without the lower bits.
+  int64_t base() const { return base_; }
   /// Microseconds.
   int64_t time() const { return base_ | low_; }
 
@@ -70,10 +73,13 @@ class EventDecoder {
   uint64_t unknown_words() const { return unknown_; }
 
  private:
+  size_t decode_singles(std::span<const uint8_t> bytes, std::span<Event> out, size_t& events);
+  size_t skip_row(std::span<const uint8_t> bytes);
+  void take(uint32_t word);
   void set_vector(uint32_t mask, uint32_t length);
 
   Clock clock_;
-  uint32_t brightness_ = 1;  // rows are of brightness changes, not of kOtherAddrY
+  bool brightness_ = true;  // the row is of brightness changes, not of kOtherAddrY
   uint32_t y_ = 0;
   uint32_t base_x_ = 0;
   uint32_t base_p_ = 0;
