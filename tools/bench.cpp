@@ -15,6 +15,7 @@ Result<int> bench(const BenchOptions& options) {
   return Error{ErrorCode::device,
                "this is a debug build, whose times mean nothing; build with the release preset"};
 #endif
+  if (options.io) return bench_io(options);
   if (options.paper) return bench_paper(options);
   return options.offload ? bench_offload(options) : bench_scenes(options);
 }
@@ -59,6 +60,16 @@ void add_bench(CLI::App& program, Command& command) {
          "and latency, beside what it can copy")
       ->excludes(stages)
       ->excludes(representation);
+  const std::string reading = "Reading of recordings";
+  CLI::Option* io = app->add_flag("--io", options->io,
+                                  "Time per event of the readers, beside that of reading the file alone")
+                        ->excludes(stages)
+                        ->excludes(representation)
+                        ->group(reading);
+  app->add_option("recordings", options->recordings,
+                  "Recordings to read; without any, one of a synthetic scene in every format that is written")
+      ->needs(io)
+      ->group(reading);
   const std::string costs = "The paper's costs";
   CLI::Option* paper = app->add_flag("--paper", options->paper,
                                      "Time per event and per query of every representation, and throughput "
@@ -72,7 +83,6 @@ void add_bench(CLI::App& program, Command& command) {
       *app, "--geometry", options->sensor, parse_sensor,
       "Sensor size WxH, of the simulation (default: 240x180 and 1280x720), or of a recording that "
       "does not say")
-      ->needs(paper)
       ->group(costs);
   app->add_option("--csv", options->csv, "Write the results to this file as CSV")->needs(paper)->group(costs);
   app->add_option("--plot", options->plot, "Write the figure to this file as SVG")

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/ceilings.h"
 #include "scarf/gpu.h"
@@ -18,11 +19,13 @@ struct BenchOptions {
   bool stages = false;
   bool paper = false;
   bool offload = false;
+  bool io = false;
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
   std::string file;                               ///< a recording; with `paper`
-  std::optional<SensorSize> sensor;               ///< with `paper`
+  std::optional<SensorSize> sensor;               ///< with `paper` and `io`
+  std::vector<std::string> recordings;            ///< with `io`; none: what scarf writes itself
   std::string json, csv, plot;                    ///< files to write; empty: none
   DeviceOptions device;
 };
@@ -34,6 +37,8 @@ void print_ceilings(const bench::Ceilings& ceilings);
 Result<int> bench_scenes(const BenchOptions& options);
 /// Throughput, kernel time and latency of a device that a host hands its stream to. Returns the exit code.
 Result<int> bench_offload(const BenchOptions& options);
+/// The readers, each beside the plain reading of its file. Returns the exit code.
+Result<int> bench_io(const BenchOptions& options);
 /// The paper's cost table and figure for every representation. Returns the exit code.
 Result<int> bench_paper(const BenchOptions& options);
 

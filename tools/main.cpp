@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   scarf::tools::add_representations(program, command);
   scarf::tools::add_digest(program, command);
   scarf::tools::add_compare(program, command);
+  scarf::tools::add_triggers(program, command);
   scarf::tools::add_verify(program, command);
   scarf::tools::add_devices(program, command);
   scarf::tools::add_bench(program, command);

@@ -15,6 +15,7 @@ struct Extension {
 
 constexpr Extension kExtensions[] = {
     {".raw", "evt3"},
+    {".dat", "dat"},
     {".txt", "text"},
     {".csv", "text"},
     {".h5", "dsec"},

@@ -42,7 +42,8 @@ class EventTally {
   ReadReport report;
 
  private:
-  size_t keep_plainly(std::span<Event> events);
+  bool is_plain(std::span<const Event> events) const;
+  size_t keep_all(std::span<Event> events);
   size_t keep_by_policy(std::span<Event> events);
   bool in_order(Event& event);
   void count_back_step(int64_t t);

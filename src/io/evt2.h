@@ -12,8 +12,8 @@ enum Type : uint32_t {
   kOff = 0x0,       // time b27..22 (lower six bits), x b21..11, y b10..0
   kOn = 0x1,        // the same
   kTimeHigh = 0x8,  // b27..0: the time's bits 33..6
-  kTrigger = 0xA,
-  kImu = 0xD,  // begins a block of kImuWords words
+  kTrigger = 0xA,   // time b27..22, input b12..8, value b0
+  kImu = 0xD,       // begins a block of kImuWords words
   kOthers = 0xE,
   kContinued = 0xF,
 };
@@ -21,8 +21,31 @@ enum Type : uint32_t {
 inline constexpr uint32_t kImuWords = 6;
 inline constexpr int kTimeLowBits = 6;
 inline constexpr int kTimeHighBits = 28;
+inline constexpr uint32_t kTimeLowMask = (1 << kTimeLowBits) - 1;
 inline constexpr uint32_t kCoordinateMask = 0x7FF;
+inline constexpr uint32_t kTriggerInputMask = 0x1F;
 
 using TimeHigh = HighCounter<kTimeHighBits>;
+
+/// The clock of EVT2, EVT2.1 and EVT4: 28 upper bits in words of their own, six lower ones in each event.
+class Clock {
+ public:
+  /// Whether there was a TIME_HIGH word; words before the first one do not count.
+  bool started() const { return time_ >= 0; }
+  void set_high(uint32_t value) {
+    high_.set(value & (TimeHigh::kRange - 1));
+    time_ = static_cast<int64_t>((high_.unwrapped() << kTimeLowBits) & INT64_MAX);
+    if (first_high_ < 0) first_high_ = time_;
+  }
+  /// Microseconds, of an event with these lower bits.
+  int64_t time(uint32_t low) const { return time_ | (low & kTimeLowMask); }
+  /// The time of the first TIME_HIGH; negative before it.
+  int64_t first_high() const { return first_high_; }
+
+ private:
+  TimeHigh high_;
+  int64_t time_ = -1;
+  int64_t first_high_ = -1;
+};
 
 }  // namespace scarf::evt2

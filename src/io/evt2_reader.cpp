@@ -1,11 +1,14 @@
 // Reader of EVT2 words.
 
+#include <optional>
 #include <utility>
 
 #include "core/little_endian.h"
 #include "io/buffered_source.h"
+#include "io/decoded_triggers.h"
 #include "io/evt2.h"
 #include "io/known_formats.h"
+#include "io/put_event.h"
 #include "io/sensor_size.h"
 #include "io/word_check.h"
 #include "io/word_guess.h"
@@ -28,18 +31,14 @@ class Evt2Reader final : public BufferedSource {
  private:
   // Copied into decode() and back, so that the compiler can hold it in registers while events are written.
   struct State {
-    evt2::TimeHigh time_high;
-    int64_t time = -1;        // of time_high, microseconds; negative before the first word of it
-    int64_t first_high = -1;  // the first value of `time`
-    uint32_t skip = 0;        // words left of an IMU block
+    evt2::Clock clock;
+    uint32_t skip = 0;  // words left of an IMU block
     uint64_t unknown = 0;
 
     void other_word(uint32_t word) {
       switch (word >> 28) {
         case evt2::kTimeHigh:
-          time_high.set(word & (evt2::TimeHigh::kRange - 1));
-          time = static_cast<int64_t>((time_high.unwrapped() << evt2::kTimeLowBits) & INT64_MAX);
-          if (first_high < 0) first_high = time;
+          clock.set_high(word);
           break;
         case evt2::kImu:
           skip = evt2::kImuWords - 1;
@@ -67,16 +66,16 @@ BufferedSource::Decoded Evt2Reader::decode(std::span<const uint8_t> bytes, bool 
     const uint32_t type = word >> 28;
     if (s.skip > 0) [[unlikely]] {
       --s.skip;
-    } else if (type <= evt2::kOn && s.time >= 0) {
-      out[count++] = {s.time | (word >> 22 & 63), static_cast<uint16_t>(word >> 11 & evt2::kCoordinateMask),
-                      static_cast<uint16_t>(word & evt2::kCoordinateMask), static_cast<uint8_t>(type)};
-    } else if (type == evt2::kTimeHigh || s.time >= 0) {
+    } else if (type <= evt2::kOn && s.clock.started()) {
+      put_event(out[count++], s.clock.time(word >> 22), word >> 11 & evt2::kCoordinateMask,
+                word & evt2::kCoordinateMask, type);
+    } else if (type == evt2::kTimeHigh || s.clock.started()) {
       s.other_word(word);
     }
   }
   state_ = s;
   tally_.report.unknown_words = s.unknown;
-  if (s.first_high >= 0) tally_.set_first_high(s.first_high);
+  if (s.clock.started()) tally_.set_first_high(s.clock.first_high());
   return {at, tally_.keep(out.first(count)), count < out.size()};
 }
 
@@ -85,6 +84,28 @@ Result<std::unique_ptr<EventSource>> open_evt2(Input input, const ReadOptions& o
   if (!sensor) return sensor.error();
   return std::unique_ptr<EventSource>(
       std::make_unique<Evt2Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
+}
+
+class Evt2Triggers {
+ public:
+  std::optional<Trigger> take(uint32_t word) {
+    if (skip_ > 0) return --skip_, std::nullopt;
+    const uint32_t type = word >> 28;
+    if (type == evt2::kTimeHigh) clock_.set_high(word);
+    if (type == evt2::kImu && clock_.started()) skip_ = evt2::kImuWords - 1;
+    if (type != evt2::kTrigger || !clock_.started()) return std::nullopt;
+    return Trigger{clock_.time(word >> 22), static_cast<uint16_t>(word >> 8 & evt2::kTriggerInputMask),
+                   static_cast<uint8_t>(word & 1)};
+  }
+
+ private:
+  evt2::Clock clock_;
+  uint32_t skip_ = 0;  // words left of an IMU block
+};
+
+Result<std::unique_ptr<TriggerSource>> open_evt2_triggers(Input input, const ReadOptions& options) {
+  return make_decoded_triggers(std::move(input), options,
+                               TriggersByWord<uint32_t, Evt2Triggers>(Evt2Triggers()));
 }
 
 bool recognise_evt2(const Beginning& beginning) {
@@ -119,12 +140,22 @@ bool looks_like_evt2(std::span<const uint8_t> bytes) {
   return check.plausible(kOneSecond);
 }
 
+bool time_highs_at_every_place(std::span<const uint8_t> bytes) {
+  uint64_t count[2] = {0, 0};
+  for (size_t at = 0; at + 4 <= bytes.size(); at += 4) {
+    const auto word = load_little_endian<uint32_t>(bytes.data() + at);
+    count[at / 4 % 2] += word >> 28 == evt2::kTimeHigh ? 1 : 0;
+  }
+  return count[0] > 0 && count[0] <= 3 * count[1] && count[1] <= 3 * count[0];
+}
+
 const Format kEvt2Format = {.name = kName,
                             .title = "Prophesee RAW, EVT2",
                             .options = kTakesFirstHigh,
                             .prophesee = true,
                             .recognise = recognise_evt2,
                             .open = open_evt2,
-                            .create = create_evt2};
+                            .create = create_evt2,
+                            .open_triggers = open_evt2_triggers};
 
 }  // namespace scarf

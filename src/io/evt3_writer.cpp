@@ -5,6 +5,7 @@
 
 #include "io/checked_sink.h"
 #include "io/evt3.h"
+#include "io/pixel_run.h"
 #include "io/prophesee_header.h"
 #include "io/writers.h"
 
@@ -14,14 +15,15 @@ namespace {
 constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt3::kTimeHighBits + evt3::kTimeLowBits));
 
 // Vectors come as VECT_12, VECT_12, VECT_8 within the sensor: the only ones that every known reader accepts.
-constexpr int32_t kVectorLength = 32;
+constexpr uint32_t kVectorLength = 32;
 constexpr size_t kFewestInVector = 5;  // of 4 words
 
 class Evt3Writer final : public CheckedSink {
  public:
   Evt3Writer(ByteWriter output, SensorSize sensor)
       : CheckedSink(std::move(output), sensor, {"evt3", 0, kTimeEnd, false, evt3::kCoordinateMask}),
-        last_base_(std::min<int32_t>(sensor.width, evt3::kCoordinateMask + 1) - kVectorLength) {
+        last_base_(std::min<int32_t>(sensor.width, evt3::kCoordinateMask + 1) -
+                   static_cast<int32_t>(kVectorLength)) {
     output_.append(prophesee_header_text("evt3", sensor));
   }
 
@@ -31,7 +33,7 @@ class Evt3Writer final : public CheckedSink {
       const Event& first = events.front();
       set_time(static_cast<uint64_t>(first.t));
       set_row(first.y);
-      const size_t run = last_base_ >= 0 ? vector_run(events) : 0;
+      const size_t run = last_base_ >= 0 ? pixel_run(events, base_of(first.x) + kVectorLength) : 0;
       if (run >= kFewestInVector) {
         put_vector(events.first(run));
       } else {
@@ -51,23 +53,10 @@ class Evt3Writer final : public CheckedSink {
   // The base of a vector that holds pixel x.
   uint32_t base_of(uint32_t x) const { return std::min(x, static_cast<uint32_t>(last_base_)); }
 
-  // Events at the front that one vector can hold: of one time, row and polarity, from left to right.
-  size_t vector_run(std::span<const Event> events) const {
-    const Event& first = events.front();
-    const uint32_t end = base_of(first.x) + kVectorLength;
-    size_t run = 1;
-    for (; run < events.size() && run < kVectorLength; ++run) {
-      const Event& e = events[run];
-      if (e.t != first.t || e.y != first.y || e.p != first.p || e.x <= events[run - 1].x || e.x >= end) break;
-    }
-    return run;
-  }
-
   void put_vector(std::span<const Event> events) {
     const VectorBase base{base_of(events.front().x), events.front().p};
     if (base_ != base) put(evt3::kVectBaseX, base.p << 11 | base.x);
-    uint32_t mask = 0;
-    for (const Event& e : events) mask |= uint32_t{1} << (e.x - base.x);
+    const uint32_t mask = pixel_bits(events, base.x);
     put(evt3::kVect12, mask & 0xFFF);
     put(evt3::kVect12, mask >> 12 & 0xFFF);
     put(evt3::kVect8, mask >> 24);

@@ -11,8 +11,9 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
-    &kMetavisionHdf5Format, &kMvsecFormat, &kM3edFormat, &kDsecFormat, &kRvtFormat,
-    &kEventUtilsFormat,     &kHdf5Format,  &kTextFormat, &kEvt2Format, &kEvt3Format,
+    &kMetavisionHdf5Format, &kMvsecFormat, &kM3edFormat, &kDsecFormat, &kRvtFormat,  &kEventUtilsFormat,
+    &kHdf5Format,           &kTextFormat,  &kEvt2Format, &kEvt3Format, &kTextFormat, &kDatFormat,
+    &kEvt2Format,           &kEvt21Format, &kEvt3Format, &kEvt4Format,
 };
 
 std::string names(bool (*wanted)(const Format&)) {
@@ -47,7 +48,8 @@ std::vector<FormatInfo> formats() {
   std::vector<FormatInfo> list;
   for (const Format* format : kFormats) {
     list.push_back({std::string(format->name), std::string(format->title), std::string(format->missing),
-                    format->recognise != nullptr || format->prophesee, format->create != nullptr, format->open_frames != nullptr, format->open_triggers != nullptr});
+                    format->recognise != nullptr || format->prophesee, format->create != nullptr,
+                    format->open_frames != nullptr, format->open_triggers != nullptr});
   }
   return list;
 }

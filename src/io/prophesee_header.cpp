@@ -17,6 +17,15 @@ constexpr size_t kMaxLine = 4096;
 
 constexpr std::string_view kEvt2 = "evt2";
 constexpr std::string_view kEvt3 = "evt3";
+constexpr std::string_view kDat = "dat";
+
+struct WordFormat {
+  std::string_view name;     // of formats()
+  std::string_view key;      // in `format`
+  std::string_view version;  // in `evt`
+};
+constexpr WordFormat kWordFormats[] = {
+    {kEvt2, "EVT2", "2.0"}, {"evt21", "EVT21", "2.1"}, {kEvt3, "EVT3", "3.0"}, {"evt4", "EVT4", "4.0"}};
 
 struct System {
   int32_t id;
@@ -68,7 +77,8 @@ Result<SensorSize> size_from(std::string_view key, std::string_view width, std::
 
 // The keys that matter, as they stand.
 struct Keys {
-  std::string format, evt, geometry, system_id;
+  std::string format, evt, geometry, system_id, endianness, camera_integrator, plugin_integrator;
+  std::string version, width, height;
   bool dat = false;  // keys that only DAT files have
 
   void set(std::string_view key, std::string_view value) {
@@ -76,14 +86,49 @@ struct Keys {
     if (key == "evt") evt = value;
     if (key == "geometry") geometry = value;
     if (key == "system_ID") system_id = value;
-    if (key == "Data" || key == "Version" || key == "Width" || key == "Height") dat = true;
+    if (key == "endianness") endianness = value;
+    if (key == "integrator_name" || key == "camera_integrator_name") camera_integrator = value;
+    if (key == "plugin_integrator_name") plugin_integrator = value;
+    if (key == "Version") version = value;
+    if (key == "Width") width = value;
+    if (key == "Height") height = value;
+    dat |= key == "Data" || key == "Version" || key == "Width" || key == "Height";
   }
 };
 
 Result<std::string_view> format_from(std::string_view name) {
-  if (name == "EVT2" || name == "2.0") return kEvt2;
-  if (name == "EVT3" || name == "3.0") return kEvt3;
-  return bad(text("the header names the format '", name, "', which is not supported; EVT2 and EVT3 are"));
+  for (const WordFormat& f : kWordFormats) {
+    if (name == f.key || name == f.version) return f.name;
+  }
+  return bad(text("the header names the format '", name,
+                  "', which is not supported; EVT2, EVT21, EVT3 and EVT4 are"));
+}
+
+// The byte order of EVT2.1: `said`, or OpenEB's rule that Prophesee's own cameras before system 55 (Saphir)
+// have the legacy one.
+Result<evt21::ByteOrder> byte_order_from(std::string_view said, const Keys& keys) {
+  constexpr int64_t kSaphir = 55;
+  if (said == "little") return evt21::ByteOrder::little;
+  if (said == "legacy") return evt21::ByteOrder::legacy;
+  if (!said.empty()) {
+    return bad(text("the header's endianness '", said, "' is unknown; 'little' and 'legacy' are known"));
+  }
+  const int64_t system = integer_from(keys.system_id).value_or(0) & ~kEvkProxyFlag;
+  const bool by_prophesee = keys.camera_integrator == "Prophesee" && keys.plugin_integrator == "Prophesee";
+  return by_prophesee && system > 0 && system < kSaphir ? evt21::ByteOrder::legacy : evt21::ByteOrder::little;
+}
+
+// Takes over a size that the header gives under `key`; it may give several, which must agree.
+Result<void> agree_on_size(PropheseeHeader& header, std::string_view key, std::string_view width,
+                           std::string_view height) {
+  const auto size = size_from(key, width, height);
+  if (!size) return size.error();
+  if (header.sensor && *header.sensor != *size) {
+    return bad(text("the header contradicts itself: it says ", size_text(*header.sensor), ", and as ", key,
+                    " ", size_text(*size), "; correct one of them"));
+  }
+  header.sensor = *size;
+  return {};
 }
 
 Result<PropheseeHeader> interpret(const Keys& keys) {
@@ -95,31 +140,34 @@ Result<PropheseeHeader> interpret(const Keys& keys) {
     if (!format) return format.error();
     header.format = *format;
   } else if (keys.dat) {
-    return bad("this is a Prophesee DAT file, which is not supported yet; convert it to RAW");
+    header.format = kDat;
   }
 
-  std::string_view width, height;
+  std::string_view width, height, endianness = keys.endianness;
   while (!options.empty()) {
     std::string_view value = take(options, ';');
     const std::string_view key = take(value, '=');
     if (key == "width") width = value;
     if (key == "height") height = value;
+    if (key == "endianness") endianness = value;
   }
+  const auto byte_order = byte_order_from(endianness, keys);
+  if (!byte_order) return byte_order.error();
+  header.byte_order = *byte_order;
   if (!width.empty() || !height.empty()) {
-    const auto size = size_from("format", width, height);
-    if (!size) return size.error();
-    header.sensor = *size;
+    if (auto r = agree_on_size(header, "format", width, height); !r) return r.error();
   }
   if (!keys.geometry.empty()) {
     std::string_view geometry_height = keys.geometry;
     const std::string_view geometry_width = take(geometry_height, 'x');
-    const auto size = size_from("geometry", geometry_width, geometry_height);
-    if (!size) return size.error();
-    if (header.sensor && *header.sensor != *size) {
-      return bad(text("the header contradicts itself: its format says ", size_text(*header.sensor),
-                      ", its geometry ", size_text(*size), "; correct one of them"));
-    }
-    header.sensor = *size;
+    if (auto r = agree_on_size(header, "geometry", geometry_width, geometry_height); !r) return r.error();
+  }
+  if (!keys.width.empty() || !keys.height.empty()) {
+    if (auto r = agree_on_size(header, "Width and Height", keys.width, keys.height); !r) return r.error();
+  }
+  if (!keys.version.empty()) {
+    header.dat_version = integer_from(keys.version);
+    if (!header.dat_version) return bad(text("the header's Version '", keys.version, "' is not a number"));
   }
   if (const System* system = find_system(keys.system_id)) {
     if (header.format.empty()) header.format = system->format;
@@ -176,8 +224,11 @@ Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input) 
 }
 
 std::string prophesee_header_text(std::string_view format, SensorSize sensor) {
-  const bool evt2 = format == kEvt2;
-  return text("% evt ", evt2 ? "2.0" : "3.0", "\n% format ", evt2 ? "EVT2" : "EVT3",
+  const auto* const word_format = std::find_if(std::begin(kWordFormats), std::end(kWordFormats),
+                                               [&](const WordFormat& f) { return f.name == format; });
+  // Without it readers guess EVT2.1's byte order from the camera.
+  const std::string_view byte_order = format == "evt21" ? ";endianness=little" : "";
+  return text("% evt ", word_format->version, "\n% format ", word_format->key, byte_order,
               ";height=", sensor.height, ";width=", sensor.width, "\n% geometry ", size_text(sensor),
               "\n% end\n");
 }

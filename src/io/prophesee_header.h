@@ -1,4 +1,4 @@
-// The text header of Prophesee RAW files: lines `% key value`.
+// The text header of Prophesee RAW and DAT files: lines `% key value`.
 // Source: Prophesee, "RAW File Format".
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/byte_reader.h"
+#include "io/evt21.h"
 #include "scarf/event.h"
 
 namespace scarf {
@@ -14,6 +15,8 @@ namespace scarf {
 struct PropheseeHeader {
   std::string_view format;  ///< a name of formats(); empty if the header does not say
   std::optional<SensorSize> sensor;
+  evt21::ByteOrder byte_order = evt21::ByteOrder::little;  ///< of EVT2.1, as said or as the camera implies
+  std::optional<int64_t> dat_version;
 };
 
 /// Reads the header and leaves `input` at the first word behind it; nullopt, and nothing skipped, if there is
@@ -21,7 +24,7 @@ struct PropheseeHeader {
 /// end.
 Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input);
 
-/// A header that names both.
+/// A header that names both. `format`: one of the word formats.
 std::string prophesee_header_text(std::string_view format, SensorSize sensor);
 
 }  // namespace scarf

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/little_endian.h"
 #include "io/open.h"
 #include "scarf/io.h"
 

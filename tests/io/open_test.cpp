@@ -41,6 +41,8 @@ TEST(PropheseeHeader, TheFormatComesFromFormatThenEvtThenSystem) {
   const auto format_of = [](std::string_view header) { return read_all(bytes_of(header)).format; };
   EXPECT_EQ(format_of("% evt 2.0\n% format EVT3;height=720;width=1280\n% end\n"), "evt3");
   EXPECT_EQ(format_of("% evt 3.0\n% system_ID 21\n% end\n"), "evt3");
+  EXPECT_EQ(format_of("% evt 2.1\n% end\n"), "evt21");
+  EXPECT_EQ(format_of("% evt 4.0\n% end\n"), "evt4");
   EXPECT_EQ(format_of("% system_ID 48\n% end\n"), "evt3");
   EXPECT_EQ(format_of("% system_ID 21\n% end\n"), "evt2");
 }
@@ -51,9 +53,9 @@ TEST(PropheseeHeader, RefusesWhatItCannotMean) {
   EXPECT_THAT(error_of("% evt 2.0\n% geometry 0x480\n% end\n"), HasSubstr("0x480"));
   EXPECT_THAT(error_of("% evt 2.0\n% geometry large\n% end\n"), HasSubstr("large"));
   EXPECT_THAT(error_of("% format EVT2;width=640\n% end\n"), HasSubstr("format"));
-  EXPECT_THAT(error_of("% format EVT21;height=720;width=1280\n% end\n"), HasSubstr("EVT21"));
-  EXPECT_THAT(error_of("% evt 4.0\n% end\n"), HasSubstr("4.0"));
-  EXPECT_THAT(error_of("% Data file containing CD events.\n% Version 2\n"), HasSubstr("DAT"));
+  EXPECT_THAT(error_of("% format HISTO3D;height=720;width=1280\n% end\n"), HasSubstr("HISTO3D"));
+  EXPECT_THAT(error_of("% evt 5.0\n% end\n"), HasSubstr("5.0"));
+  EXPECT_THAT(error_of("% Version two\n% end\n"), HasSubstr("two"));
   EXPECT_THAT(error_of("% serial_number 5\n% end\n"), HasSubstr("no format"));
 }
 

@@ -57,7 +57,7 @@ TEST_P(Recordings, ComeBackFromEveryWriter) {
   auto source = open_events(std::string(folder) + "/" + GetParam().path);
   ASSERT_TRUE(source.ok()) << source.error().message;
   const auto original = read_all(*std::move(source), 1 << 16);
-  for (const char* format : {"evt2", "evt3", "text"}) {
+  for (const char* format : {"dat", "evt2", "evt21", "evt3", "evt4", "text"}) {
     const TemporaryFile file;
     auto sink = create_events(file.path(), format, GetParam().sensor);
     ASSERT_TRUE(sink.ok()) << sink.error().message;
@@ -67,6 +67,23 @@ TEST_P(Recordings, ComeBackFromEveryWriter) {
     ASSERT_TRUE(written.ok()) << written.error().message;
     EXPECT_TRUE(read_all(*std::move(written), 1 << 16).events == original.events);
   }
+}
+
+// DAT of the N-CARS set, which does not say its sensor size.
+TEST(Dat, NCarsIsReadAsKnown) {
+  const char* const folder = std::getenv("SCARF_DATA_DIR");
+  if (!folder) GTEST_SKIP() << "SCARF_DATA_DIR is not set";
+  auto source = open_events(std::string(folder) + "/misc/ncars.dat");
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  const auto r = read_all(*std::move(source), 100);
+  EXPECT_EQ(r.format, "dat");
+  EXPECT_EQ(r.sensor, std::nullopt);
+  ASSERT_EQ(r.events.size(), 2009u);
+  EXPECT_EQ(r.events.front(), (Event{0, 25, 8, 0}));
+  EXPECT_EQ(r.events.back(), (Event{99'952, 75, 28, 1}));
+  EventDigest digest;
+  for (const Event& e : r.events) digest.add(e);
+  EXPECT_EQ(digest.hex(), "ad3600a8858f0dd69ff8452b20dff06d65edf147a5373f72066b84f262abda82");
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,0 +1,54 @@
+// scarf triggers: the edges at the camera's trigger inputs.
+#include <array>
+#include <iostream>
+
+#include "core/text.h"
+#include "scarf/frames.h"
+#include "tools/commands.h"
+#include "tools/files.h"
+#include "tools/read_options.h"
+
+namespace scarf::tools {
+namespace {
+
+struct TriggersOptions {
+  std::string file;
+  std::string output;  // empty: standard output
+  ReadOptions read;
+};
+
+Result<int> triggers(const TriggersOptions& options) {
+  const auto source = open_triggers(options.file, options.read);
+  if (!source) return source.error();
+  std::string lines = "t_us,id,value\n";
+  std::array<Trigger, 1024> some;
+  for (;;) {
+    const auto count = (*source)->read(some);
+    if (!count) return count.error();
+    for (size_t i = 0; i < *count; ++i) {
+      lines += text(some[i].t, ",", some[i].id, ",", int{some[i].value}, "\n");
+    }
+    if (options.output.empty()) {
+      std::cout << lines;
+      lines.clear();
+    }
+    if (*count == 0) break;
+  }
+  if (options.output.empty()) return 0;
+  if (auto r = write_file(options.output, lines); !r) return r.error();
+  return 0;
+}
+
+}  // namespace
+
+void add_triggers(CLI::App& program, Command& command) {
+  CLI::App* app = program.add_subcommand(
+      "triggers", "The external triggers of a recording as lines `t_us,id,value`; value 1 is a rising edge");
+  auto options = std::make_shared<TriggersOptions>();
+  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  app->add_option("-o,--output", options->output, "CSV file to write instead of standard output");
+  add_read_options(*app, options->read);
+  app->callback([&command, options] { command.run = [options] { return triggers(*options); }; });
+}
+
+}  // namespace scarf::tools
