@@ -17,6 +17,7 @@ constexpr Extension kExtensions[] = {
     {".raw", "evt3"},
     {".txt", "text"},
     {".csv", "text"},
+    {".es", "es"},
 };
 
 }  // namespace

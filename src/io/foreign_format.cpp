@@ -19,7 +19,6 @@ constexpr Magic kMagics[] = {
     {"7z\xbc\xaf\x27\x1c"sv, "looks like a 7z archive: unpack it first"},
     {"#!AER-DAT4"sv, "AEDAT4 is not supported yet: export it as text"},
     {"#!AER-DAT"sv, "AEDAT before version 4 is not supported: export it as text"},
-    {"Event Stream"sv, "Event Stream (.es) is not supported yet: export it as text"},
     {"\x89HDF\r\n\x1a\n"sv, "HDF5 is not supported yet: export it as text or RAW"},
     {"#ROSBAG V"sv, "ROS bags are not supported yet: export the events as text or RAW"},
     {"\x89MCAP0\r\n"sv, "MCAP (ROS 2 bag) is not supported yet: export the events as text or RAW"},

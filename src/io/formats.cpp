@@ -11,9 +11,11 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
+    &kEventStreamFormat,
     &kTextFormat,
     &kEvt2Format,
     &kEvt3Format,
+    &kNmnistFormat,
 };
 
 std::string names(bool (*wanted)(const Format&)) {

@@ -5,8 +5,10 @@
 
 namespace scarf {
 
+extern const Format kEventStreamFormat;
 extern const Format kEvt2Format;
 extern const Format kEvt3Format;
+extern const Format kNmnistFormat;
 extern const Format kTextFormat;
 
 }  // namespace scarf
