@@ -16,7 +16,7 @@ struct Extension {
 constexpr Extension kExtensions[] = {
     {".raw", "evt3"},
     {".txt", "text"},
-    {".csv", "text"},
+    {".csv", "csv"},
     {".es", "es"},
 };
 

@@ -11,7 +11,6 @@ struct Magic {
 };
 
 constexpr Magic kMagics[] = {
-    {"PK\x03\x04"sv, "looks like a zip archive: unpack it first"},
     {"\x1f\x8b"sv, "looks like gzip: unpack it first"},
     {"BZh"sv, "looks like bzip2: unpack it first"},
     {"\xfd\x37zXZ\0"sv, "looks like xz: unpack it first"},

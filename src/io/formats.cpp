@@ -12,6 +12,8 @@ namespace {
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
     &kEventStreamFormat,
+    &kEcdFormat,
+    &kCsvFormat,
     &kTextFormat,
     &kEvt2Format,
     &kEvt3Format,

@@ -5,6 +5,8 @@
 
 namespace scarf {
 
+extern const Format kCsvFormat;
+extern const Format kEcdFormat;
 extern const Format kEventStreamFormat;
 extern const Format kEvt2Format;
 extern const Format kEvt3Format;

@@ -9,6 +9,7 @@
 namespace scarf {
 
 // Each creates the file; "-" is standard output. The sensor is a legal one. Errors: io.
+Result<std::unique_ptr<EventSink>> create_csv(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_event_stream(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor);
