@@ -18,6 +18,7 @@ constexpr Extension kExtensions[] = {
     {".txt", "text"},
     {".csv", "csv"},
     {".es", "es"},
+    {".npy", "npy"},
 };
 
 }  // namespace

@@ -23,7 +23,6 @@ constexpr Magic kMagics[] = {
     {"\x89MCAP0\r\n"sv, "MCAP (ROS 2 bag) is not supported yet: export the events as text or RAW"},
     {"SQLite format 3\0"sv,
      "looks like a SQLite database (ROS 2 bag), not supported yet: export the events as text"},
-    {"\x93NUMPY"sv, "NumPy arrays are not supported yet: export them as text"},
     {"\x89PNG"sv, "looks like a PNG image, not events"},
     {"\xff\xd8\xff"sv, "looks like a JPEG image, not events"},
 };

@@ -11,13 +11,8 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
-    &kEventStreamFormat,
-    &kEcdFormat,
-    &kCsvFormat,
-    &kTextFormat,
-    &kEvt2Format,
-    &kEvt3Format,
-    &kNmnistFormat,
+    &kEventStreamFormat, &kNpyFormat,  &kNpzFormat,  &kEvimo2Format, &kEcdFormat,
+    &kCsvFormat,         &kTextFormat, &kEvt2Format, &kEvt3Format,   &kNmnistFormat,
 };
 
 std::string names(bool (*wanted)(const Format&)) {

@@ -8,9 +8,12 @@ namespace scarf {
 extern const Format kCsvFormat;
 extern const Format kEcdFormat;
 extern const Format kEventStreamFormat;
+extern const Format kEvimo2Format;
 extern const Format kEvt2Format;
 extern const Format kEvt3Format;
 extern const Format kNmnistFormat;
+extern const Format kNpyFormat;
+extern const Format kNpzFormat;
 extern const Format kTextFormat;
 
 }  // namespace scarf

@@ -13,6 +13,7 @@ Result<std::unique_ptr<EventSink>> create_csv(const std::string& path, SensorSiz
 Result<std::unique_ptr<EventSink>> create_event_stream(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor);
+Result<std::unique_ptr<EventSink>> create_npy(const std::string& path, SensorSize sensor);
 Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor);
 
 }  // namespace scarf
