@@ -11,7 +11,7 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
-    &kEventStreamFormat, &kNpyFormat,  &kNpzFormat,  &kEvimo2Format, &kEcdFormat,
+    &kEventStreamFormat, &kNpyFormat,  &kNpzFormat,  &kEvimo2Format, &kEcdFormat,    &kYarpFormat,
     &kCsvFormat,         &kTextFormat, &kEvt2Format, &kEvt3Format,   &kNmnistFormat,
 };
 
@@ -47,7 +47,8 @@ std::vector<FormatInfo> formats() {
   std::vector<FormatInfo> list;
   for (const Format* format : kFormats) {
     list.push_back({std::string(format->name), std::string(format->title), std::string(format->missing),
-                    format->recognise != nullptr || format->prophesee, format->create != nullptr, format->open_frames != nullptr, format->open_triggers != nullptr});
+                    format->recognise != nullptr || format->prophesee, format->create != nullptr,
+                    format->open_frames != nullptr, format->open_triggers != nullptr});
   }
   return list;
 }

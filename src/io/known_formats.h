@@ -15,5 +15,6 @@ extern const Format kNmnistFormat;
 extern const Format kNpyFormat;
 extern const Format kNpzFormat;
 extern const Format kTextFormat;
+extern const Format kYarpFormat;
 
 }  // namespace scarf
