@@ -14,12 +14,8 @@ struct Extension {
 };
 
 constexpr Extension kExtensions[] = {
-    {".raw", "evt3"},
-    {".dat", "dat"},
-    {".txt", "text"},
-    {".csv", "text"},
-    {".h5", "dsec"},
-    {".hdf5", "dsec"},
+    {".raw", "evt3"},  {".dat", "dat"}, {".txt", "text"}, {".h5", "dsec"},
+    {".hdf5", "dsec"}, {".csv", "csv"}, {".es", "es"},    {".npy", "npy"},
 };
 
 }  // namespace

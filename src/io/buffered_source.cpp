@@ -52,6 +52,11 @@ Result<size_t> BufferedSource::read(std::span<Event> out) {
       continue;
     }
     if (const auto refilled = input_.refill(); !refilled) {
+      // A broken member of an archive ends there; an input that cannot be read is an error.
+      if (refilled.error().code == ErrorCode::bad_input) {
+        tally_.note_damage(input_.consumed(), refilled.error().message);
+        continue;
+      }
       return Error{refilled.error().code, text(name_, ": ", refilled.error().message)};
     }
   }

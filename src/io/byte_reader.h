@@ -14,7 +14,8 @@ namespace scarf {
 
 class ByteReader {
  public:
-  /// Reads some bytes into the span, at least one unless the input has ended.
+  /// Reads some bytes into the span, at least one unless the input has ended. Errors: io; bad_input once, for
+  /// compressed data that is broken, behind which the input has ended.
   using ReadSome = std::function<Result<size_t>(std::span<uint8_t>)>;
 
   /// Most bytes that available() can hold.

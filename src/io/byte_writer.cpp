@@ -60,6 +60,18 @@ Result<void> ByteWriter::flush() {
   return {};
 }
 
+Result<void> ByteWriter::overwrite(uint64_t offset, std::string_view bytes) {
+  if (const auto flushed = flush(); !flushed) return flushed;
+  while (!bytes.empty()) {
+    const ssize_t count = pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno != EINTR) return system_error(path_, "cannot complete");
+    if (count <= 0) continue;
+    bytes.remove_prefix(static_cast<size_t>(count));
+    offset += static_cast<uint64_t>(count);
+  }
+  return {};
+}
+
 Result<void> ByteWriter::finish() {
   if (const auto flushed = flush(); !flushed) return flushed;
   if (close(std::exchange(fd_, -1)) != 0) return system_error(path_, "cannot close");

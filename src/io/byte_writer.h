@@ -36,6 +36,8 @@ class ByteWriter {
 
   /// Writes the buffer out if it is large. Errors: io.
   Result<void> flush_if_large() { return buffer_.size() >= kLarge ? flush() : Result<void>(); }
+  /// Writes everything so far and replaces bytes of it, which are there. Errors: io, for pipes too.
+  Result<void> overwrite(uint64_t offset, std::string_view bytes);
   /// Writes the rest, closes the file and puts it in its place. Errors: io.
   Result<void> finish();
 

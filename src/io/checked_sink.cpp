@@ -26,4 +26,9 @@ Result<void> CheckedSink::write(std::span<const Event> events) {
   return {};
 }
 
+Result<void> CheckedSink::finish() {
+  if (const auto completed = complete(); !completed) return completed;
+  return output_.finish();
+}
+
 }  // namespace scarf

@@ -14,11 +14,15 @@ class CheckedSink : public EventSink {
   CheckedSink(ByteWriter output, SensorSize sensor, const WriteLimits& limits);
 
   Result<void> write(std::span<const Event> events) final;
-  Result<void> finish() final { return output_.finish(); }
+  Result<void> finish() final;
 
  protected:
   /// Appends events that were checked to output_.
   virtual void encode(std::span<const Event> events) = 0;
+  /// What is left to do before output_ is finished. Errors: io.
+  virtual Result<void> complete() { return {}; }
+  /// Events encoded so far.
+  uint64_t count() const { return count_; }
 
   ByteWriter output_;
 

@@ -31,7 +31,7 @@ std::optional<int64_t> integer_from(std::string_view token) {
   return negative ? -value : value;
 }
 
-std::optional<int64_t> microseconds_from_seconds(std::string_view token) {
+std::optional<int64_t> microseconds_from(std::string_view token, int unit_exponent) {
   const bool negative = take_sign(token);
   size_t point = token.npos;
   int64_t exponent = 0;
@@ -46,7 +46,7 @@ std::optional<int64_t> microseconds_from_seconds(std::string_view token) {
   point = std::min(point, token.size());
 
   // The first `whole` digits make the microseconds, the next one decides the rounding.
-  const int64_t whole = static_cast<int64_t>(point) + exponent + 6;
+  const int64_t whole = static_cast<int64_t>(point) + exponent + unit_exponent;
   int64_t value = 0;
   int64_t index = 0;
   int rounding = 0;
@@ -74,6 +74,16 @@ std::optional<int64_t> microseconds_from_seconds(std::string_view token) {
   if (rounding > 5 || (rounding == 5 && (!negative || finer))) ++value;
   if (value >= kMaxTextTime) return std::nullopt;
   return negative ? -value : value;
+}
+
+bool is_decimal(std::string_view token) {
+  take_sign(token);
+  const size_t exponent = token.find_first_of("eE");
+  if (exponent != token.npos && !integer_from(token.substr(exponent + 1))) return false;
+  token = token.substr(0, exponent);
+  const auto points = std::count(token.begin(), token.end(), '.');
+  const auto digits = std::count_if(token.begin(), token.end(), is_digit);
+  return points <= 1 && digits > 0 && points + digits == std::ssize(token);
 }
 
 }  // namespace scarf

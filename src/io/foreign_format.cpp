@@ -11,7 +11,6 @@ struct Magic {
 };
 
 constexpr Magic kMagics[] = {
-    {"PK\x03\x04"sv, "looks like a zip archive: unpack it first"},
     {"\x1f\x8b"sv, "looks like gzip: unpack it first"},
     {"BZh"sv, "looks like bzip2: unpack it first"},
     {"\xfd\x37zXZ\0"sv, "looks like xz: unpack it first"},
@@ -19,12 +18,10 @@ constexpr Magic kMagics[] = {
     {"7z\xbc\xaf\x27\x1c"sv, "looks like a 7z archive: unpack it first"},
     {"#!AER-DAT4"sv, "AEDAT4 is not supported yet: export it as text"},
     {"#!AER-DAT"sv, "AEDAT before version 4 is not supported: export it as text"},
-    {"Event Stream"sv, "Event Stream (.es) is not supported yet: export it as text"},
     {"#ROSBAG V"sv, "ROS bags are not supported yet: export the events as text or RAW"},
     {"\x89MCAP0\r\n"sv, "MCAP (ROS 2 bag) is not supported yet: export the events as text or RAW"},
     {"SQLite format 3\0"sv,
      "looks like a SQLite database (ROS 2 bag), not supported yet: export the events as text"},
-    {"\x93NUMPY"sv, "NumPy arrays are not supported yet: export them as text"},
     {"\x89PNG"sv, "looks like a PNG image, not events"},
     {"\xff\xd8\xff"sv, "looks like a JPEG image, not events"},
 };

@@ -35,6 +35,11 @@ struct Beginning {
   bool folder = false;
 };
 
+/// Whether the bytes begin with a signature.
+inline bool starts_with(std::span<const uint8_t> bytes, std::string_view signature) {
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(signature);
+}
+
 /// Options of ReadOptions that only some formats have a use for.
 enum FormatOption : uint32_t {
   kTakesStream = 1,

@@ -11,9 +11,27 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
-    &kMetavisionHdf5Format, &kMvsecFormat, &kM3edFormat, &kDsecFormat, &kRvtFormat,  &kEventUtilsFormat,
-    &kHdf5Format,           &kTextFormat,  &kEvt2Format, &kEvt3Format, &kTextFormat, &kDatFormat,
-    &kEvt2Format,           &kEvt21Format, &kEvt3Format, &kEvt4Format,
+    &kMetavisionHdf5Format,
+    &kMvsecFormat,
+    &kM3edFormat,
+    &kDsecFormat,
+    &kRvtFormat,
+    &kEventUtilsFormat,
+    &kHdf5Format,
+    &kEventStreamFormat,
+    &kNpyFormat,
+    &kNpzFormat,
+    &kEvimo2Format,
+    &kEcdFormat,
+    &kYarpFormat,
+    &kCsvFormat,
+    &kTextFormat,
+    &kDatFormat,
+    &kEvt2Format,
+    &kEvt21Format,
+    &kEvt3Format,
+    &kEvt4Format,
+    &kNmnistFormat,
 };
 
 std::string names(bool (*wanted)(const Format&)) {

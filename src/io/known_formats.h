@@ -5,18 +5,26 @@
 
 namespace scarf {
 
+extern const Format kCsvFormat;
 extern const Format kDatFormat;
-extern const Format kEvt2Format;
+extern const Format kDsecFormat;
+extern const Format kEcdFormat;
+extern const Format kEventStreamFormat;
+extern const Format kEventUtilsFormat;
+extern const Format kEvimo2Format;
 extern const Format kEvt21Format;
+extern const Format kEvt2Format;
 extern const Format kEvt3Format;
+extern const Format kEvt4Format;
+extern const Format kHdf5Format;
+extern const Format kM3edFormat;
 extern const Format kMetavisionHdf5Format;
 extern const Format kMvsecFormat;
-extern const Format kM3edFormat;
-extern const Format kDsecFormat;
+extern const Format kNmnistFormat;
+extern const Format kNpyFormat;
+extern const Format kNpzFormat;
 extern const Format kRvtFormat;
-extern const Format kEventUtilsFormat;
-extern const Format kHdf5Format;
-extern const Format kEvt4Format;
 extern const Format kTextFormat;
+extern const Format kYarpFormat;
 
 }  // namespace scarf

@@ -1,0 +1,392 @@
+#include "io/array_source.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/little_endian.h"
+#include "core/text.h"
+#include "io/block_source.h"
+#include "io/event_tally.h"
+#include "io/sensor_size.h"
+
+namespace scarf {
+namespace {
+
+// Rows that become a block of events, and rows that are looked at before the first.
+constexpr size_t kBlockRows = 4096;
+
+Error bad(std::string message) {
+  return {ErrorCode::bad_input, std::move(message)};
+}
+
+bool is_float(const NumpyType& type) {
+  return type.kind == 'f';
+}
+
+// The bytes of a number, as the lower ones of a word.
+uint64_t load_word(const NumpyType& type, const uint8_t* at) {
+  uint64_t word = 0;
+  for (size_t i = 0; i < type.bytes; ++i) {
+    word |= uint64_t{at[type.big_endian ? type.bytes - 1 - i : i]} << (8 * i);
+  }
+  return word;
+}
+
+double half(uint16_t bits) {
+  const int exponent = bits >> 10 & 31;
+  const int fraction = bits & 1023;
+  double value = 0;
+  if (exponent == 31) {
+    value =
+        fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  } else {
+    value = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+  }
+  return bits >> 15 ? -value : value;
+}
+
+double load_float(const NumpyType& type, const uint8_t* at) {
+  const uint64_t word = load_word(type, at);
+  if (type.bytes == 2) return half(static_cast<uint16_t>(word));
+  if (type.bytes == 4) return std::bit_cast<float>(static_cast<uint32_t>(word));
+  return std::bit_cast<double>(word);
+}
+
+// A whole number; nullopt if it is none or does not fit.
+std::optional<int64_t> load_integer(const NumpyType& type, const uint8_t* at) {
+  if (is_float(type)) {
+    const double value = load_float(type, at);
+    constexpr double kLimit = 9e18;
+    if (!(std::abs(value) < kLimit) || value != std::floor(value)) return std::nullopt;
+    return static_cast<int64_t>(value);
+  }
+  const uint64_t word = load_word(type, at);
+  if (type.kind == 'u' || type.kind == 'b') {
+    if (word > static_cast<uint64_t>(std::numeric_limits<int64_t>::max())) return std::nullopt;
+    return static_cast<int64_t>(word);
+  }
+  const int shift = static_cast<int>(64 - 8 * type.bytes);
+  return static_cast<int64_t>(word << shift) >> shift;
+}
+
+int64_t power_of_ten(int exponent) {
+  int64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+// Units of 10^exponent microseconds, rounded half up; nullopt if they are too many.
+std::optional<int64_t> load_time(const NumpyType& type, int exponent, const uint8_t* at) {
+  const int64_t power = power_of_ten(std::abs(exponent));
+  if (is_float(type)) {
+    const double value = load_float(type, at);
+    const auto scale = static_cast<double>(power);
+    const double t = std::floor((exponent >= 0 ? value * scale : value / scale) + 0.5);
+    if (!(std::abs(t) < static_cast<double>(kMaxTime))) return std::nullopt;
+    return static_cast<int64_t>(t);
+  }
+  const auto value = load_integer(type, at);
+  if (!value) return std::nullopt;
+  int64_t t = 0;
+  if (exponent >= 0) {
+    if (std::abs(*value / 2) >= kMaxTime / power) return std::nullopt;
+    t = *value * power;
+  } else {
+    const int64_t rest = (*value % power + power) % power;
+    t = (*value - rest) / power + (rest >= power / 2 ? 1 : 0);
+  }
+  if (t <= -kMaxTime || t >= kMaxTime) return std::nullopt;
+  return t;
+}
+
+// The columns of an event, found once.
+struct EventColumns {
+  ArrayColumn t, x, y, p;
+
+  explicit EventColumns(const std::vector<ArrayColumn>& columns) {
+    for (const ArrayColumn& column : columns) {
+      if (column.content == Column::t) t = column;
+      if (column.content == Column::x) x = column;
+      if (column.content == Column::y) y = column;
+      if (column.content == Column::p) p = column;
+    }
+  }
+};
+
+const uint8_t* at_row(const std::vector<Array>& arrays, const ArrayColumn& column, size_t row) {
+  const Array& array = arrays[column.array];
+  return array.bytes.available().data() + row * array.row_bytes + column.offset;
+}
+
+class ArraySource final : public BlockSource {
+ public:
+  ArraySource(std::string_view format, const std::string& name, EventArrays arrays, int exponent,
+              std::optional<SensorSize> sensor, const ReadOptions& options)
+      : BlockSource(name, sensor, options),
+        format_(format),
+        arrays_(std::move(arrays.arrays)),
+        columns_(arrays.columns),
+        rows_(arrays.rows),
+        exponent_(exponent) {}
+
+  std::string_view format() const override { return format_; }
+  uint64_t bytes_read() const override { return sum(&ByteReader::consumed); }
+  uint64_t bytes_total() const override { return sum(&ByteReader::total); }
+
+ protected:
+  Result<bool> next(std::vector<Event>& block) override;
+
+ private:
+  enum class Row { event, outside, unknown };
+
+  uint64_t sum(uint64_t (ByteReader::*count)() const) const {
+    uint64_t bytes = 0;
+    for (const Array& array : arrays_) bytes += (array.bytes.*count)();
+    return bytes;
+  }
+
+  Row decode(size_t row, Event& event) const;
+  void skip(size_t rows);
+  void end_early();
+
+  std::string_view format_;
+  std::vector<Array> arrays_;
+  EventColumns columns_;
+  uint64_t rows_;      // of the arrays
+  uint64_t read_ = 0;  // of them
+  int exponent_;
+};
+
+ArraySource::Row ArraySource::decode(size_t row, Event& event) const {
+  const auto t = load_time(columns_.t.type, exponent_, at_row(arrays_, columns_.t, row));
+  const auto x = load_integer(columns_.x.type, at_row(arrays_, columns_.x, row));
+  const auto y = load_integer(columns_.y.type, at_row(arrays_, columns_.y, row));
+  const auto p = load_integer(columns_.p.type, at_row(arrays_, columns_.p, row));
+  if (!t || !x || !y || !p || *p < -1 || *p > 1) return Row::unknown;
+  const auto fits = [](int64_t v) { return v >= 0 && v <= std::numeric_limits<uint16_t>::max(); };
+  event.t = *t;
+  if (!fits(*x) || !fits(*y)) return Row::outside;
+  event = {*t, static_cast<uint16_t>(*x), static_cast<uint16_t>(*y), static_cast<uint8_t>(*p > 0)};
+  return Row::event;
+}
+
+void ArraySource::skip(size_t rows) {
+  for (Array& array : arrays_) array.bytes.skip(rows * array.row_bytes);
+  read_ += rows;
+}
+
+// The input ends before the array does.
+void ArraySource::end_early() {
+  for (Array& array : arrays_) {
+    const size_t rest = array.bytes.available().size();
+    if (rest < array.row_bytes) tally_.report.truncated_bytes += rest;
+  }
+  tally_.note_damage(bytes_read(), text("the array ends after ", read_, " of ", rows_, " rows"));
+}
+
+Result<bool> ArraySource::next(std::vector<Event>& block) {
+  if (read_ == rows_) return false;
+  size_t rows = static_cast<size_t>(std::min<uint64_t>(rows_ - read_, kBlockRows));
+  for (Array& array : arrays_) {
+    if (const auto filled = array.bytes.fill(array.row_bytes); !filled) {
+      if (filled.error().code != ErrorCode::bad_input) return filled.error();
+      tally_.note_damage(bytes_read(), filled.error().message);
+      return false;
+    }
+    rows = std::min(rows, array.bytes.available().size() / array.row_bytes);
+  }
+  if (rows == 0) {
+    end_early();
+    return false;
+  }
+  for (size_t row = 0; row < rows; ++row) {
+    Event event;
+    const Row kind = decode(row, event);
+    if (kind == Row::event) {
+      block.push_back(event);
+      continue;
+    }
+    // What is no event is counted when all events before it are handed out.
+    if (row > 0) {
+      skip(row);
+      return true;
+    }
+    if (kind == Row::outside) {
+      tally_.drop(event.t);
+    } else {
+      ++tally_.report.unknown_words;
+      if (tally_.strict()) {
+        tally_.fail(bad(text("row ", read_, " is no event; leave out --strict to pass over it")));
+      }
+    }
+    skip(1);
+    return true;
+  }
+  skip(rows);
+  return true;
+}
+
+// What the rows at the beginning say of one column.
+struct Look {
+  bool whole = true;    // numbers without a fraction
+  bool zero = true;     // all of them
+  bool rising = true;   // none is smaller than the one before it
+  bool moving = false;  // some differ
+};
+
+Look look_at(const std::vector<Array>& arrays, const ArrayColumn& column, size_t rows) {
+  Look look;
+  double previous = 0;
+  for (size_t row = 0; row < rows; ++row) {
+    const uint8_t* const at = at_row(arrays, column, row);
+    const double value = is_float(column.type)
+                             ? load_float(column.type, at)
+                             : static_cast<double>(load_integer(column.type, at).value_or(0));
+    look.whole &= value == std::floor(value);
+    look.zero &= value == 0;
+    look.rising &= row == 0 || value >= previous;
+    look.moving |= row > 0 && value != previous;
+    previous = value;
+  }
+  return look;
+}
+
+// An order that nobody has named must suit the first rows.
+Result<void> check_order(const EventArrays& arrays, size_t rows) {
+  constexpr std::string_view kAsk = "; name the order of the columns with --columns, such as xytp";
+  const EventColumns columns(arrays.columns);
+  for (size_t row = 0; row < rows; ++row) {
+    const auto p = load_integer(columns.p.type, at_row(arrays.arrays, columns.p, row));
+    if (!p || *p < -1 || *p > 1) return bad(text("row ", row, " does not read as t, x, y, p", kAsk));
+  }
+  if (look_at(arrays.arrays, columns.t, rows).rising) return {};
+  for (const ArrayColumn& other : {columns.x, columns.y}) {
+    const Look look = look_at(arrays.arrays, other, rows);
+    if (look.rising && look.moving) {
+      return bad(text("not the first column but another one rises as times do", kAsk));
+    }
+  }
+  return {};
+}
+
+Result<int> unit_of_times(const EventArrays& arrays, size_t rows, const ReadOptions& options) {
+  const EventColumns columns(arrays.columns);
+  const auto given = time_exponent_from(options.time_unit);
+  if (!given) return given.error();
+  if (*given) return **given;
+  if (!columns.t.type.unit.empty()) {
+    const auto own = time_exponent_from(columns.t.type.unit);
+    if (!own) return bad(own.error().message);
+    return own->value_or(0);
+  }
+  if (!is_float(columns.t.type)) return 0;
+  const Look look = look_at(arrays.arrays, columns.t, rows);
+  if (look.whole && !look.zero) {
+    return bad(
+        "the times are floating-point numbers without fractions, so that seconds and microseconds look "
+        "alike; name the unit with --time-unit");
+  }
+  return 6;
+}
+
+// The numbers of a row, if there are as many as columns; 0 if they are not all of one event each.
+size_t columns_in_row(const NumpyHeader& header) {
+  if (header.named || header.shape.size() != 2 || !is_number(header.fields[0].type)) return 0;
+  return static_cast<size_t>(std::min<uint64_t>(header.shape[1], 1 << 16));
+}
+
+std::vector<ArrayColumn> named_columns(const NumpyHeader& header) {
+  std::vector<ArrayColumn> columns;
+  for (const NumpyField& field : header.fields) {
+    const Column content = column_named(field.name);
+    const bool usable = content != Column::skipped && content != Column::camera;
+    if (usable && field.count == 1 && is_number(field.type)) {
+      columns.push_back({content, 0, field.offset, field.type});
+    }
+  }
+  return columns;
+}
+
+bool are_complete(const std::vector<ArrayColumn>& columns) {
+  std::vector<Column> contents;
+  for (const ArrayColumn& column : columns) contents.push_back(column.content);
+  return scarf::are_complete(contents);
+}
+
+}  // namespace
+
+bool holds_events(const NumpyHeader& header, size_t columns) {
+  if (header.named) return header.shape.size() == 1 && are_complete(named_columns(header));
+  return columns_in_row(header) == columns;
+}
+
+Result<void> require_row_order(const NumpyHeader& header) {
+  if (!header.fortran_order || header.shape.size() < 2) return {};
+  return bad(
+      "the array is stored column by column (Fortran order); save it row by row, with "
+      "numpy.ascontiguousarray");
+}
+
+Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header,
+                                     const ReadOptions& options) {
+  EventArrays events;
+  events.named = header.named;
+  events.rows = header.shape.empty() ? 0 : header.shape[0];
+  size_t row_bytes = header.item_bytes;
+  if (header.named) {
+    if (!options.columns.empty()) {
+      return Error{ErrorCode::illegal_parameter, "the array names its columns; leave --columns out"};
+    }
+    events.columns = named_columns(header);
+    if (!holds_events(header, 0)) {
+      return bad("the array's fields are not one each for t, x, y and p; rename them");
+    }
+  } else {
+    const auto columns = columns_from(options.columns.empty() ? "txyp" : options.columns);
+    if (!columns) return columns.error();
+    if (std::find(columns->begin(), columns->end(), Column::camera) != columns->end()) {
+      return Error{ErrorCode::illegal_parameter, "arrays have no column of cameras: use _ instead of c"};
+    }
+    const size_t found = columns_in_row(header);
+    if (found == 0) return bad("the array has neither named fields nor a row of numbers per event");
+    if (found != columns->size()) {
+      return bad(text("the array has ", found, " columns, not ", columns->size(),
+                      "; name them with --columns, such as txyp_, with _ for columns to skip"));
+    }
+    if (auto r = require_row_order(header); !r) return r.error();
+    for (size_t i = 0; i < found; ++i) {
+      if ((*columns)[i] == Column::skipped) continue;
+      events.columns.push_back({(*columns)[i], 0, i * header.item_bytes, header.fields[0].type});
+    }
+    row_bytes *= found;
+  }
+  if (row_bytes > ByteReader::kCapacity) return bad("the array's rows are too long");
+  events.arrays.push_back({std::move(bytes), row_bytes});
+  return events;
+}
+
+Result<std::unique_ptr<EventSource>> open_arrays(std::string_view format, const std::string& name,
+                                                 EventArrays arrays, const ReadOptions& options) {
+  const auto sensor = agreed_sensor(std::nullopt, options.sensor);
+  if (!sensor) return sensor.error();
+  size_t rows = static_cast<size_t>(std::min<uint64_t>(arrays.rows, kBlockRows));
+  for (Array& array : arrays.arrays) {
+    const size_t bytes = std::min(rows * array.row_bytes, ByteReader::kCapacity);
+    // What is broken here is met again, and reported, by reading.
+    const auto filled = array.bytes.fill(bytes);
+    if (!filled && filled.error().code != ErrorCode::bad_input) return filled.error();
+    rows = std::min(rows, array.bytes.available().size() / array.row_bytes);
+  }
+  if (!arrays.named && options.columns.empty()) {
+    if (auto r = check_order(arrays, rows); !r) return r.error();
+  }
+  const auto exponent = unit_of_times(arrays, rows, options);
+  if (!exponent) return exponent.error();
+  return std::unique_ptr<EventSource>(
+      std::make_unique<ArraySource>(format, name, std::move(arrays), *exponent, *sensor, options));
+}
+
+}  // namespace scarf

@@ -1,0 +1,57 @@
+// Events out of NumPy arrays: one with named fields, one with a row per event, or one per column.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/byte_reader.h"
+#include "io/columns.h"
+#include "io/numpy_header.h"
+#include "scarf/io.h"
+#include "scarf/result.h"
+
+namespace scarf {
+
+/// An array, behind its header.
+struct Array {
+  ByteReader bytes;
+  size_t row_bytes = 0;
+};
+
+/// A column of one of several arrays.
+struct ArrayColumn {
+  Column content = Column::skipped;
+  size_t array = 0;
+  size_t offset = 0;  ///< in the array's row
+  NumpyType type;
+};
+
+struct EventArrays {
+  std::vector<Array> arrays;
+  std::vector<ArrayColumn> columns;  ///< t, x, y and p, each once
+  uint64_t rows = 0;
+  bool named = false;  ///< what the columns hold is told by names, not by their order
+};
+
+/// Whether the array can hold all of an event, by names or, if it has `columns` columns, by their order.
+bool holds_events(const NumpyHeader& header, size_t columns);
+
+/// The columns of one array, by its names or else by ReadOptions::columns (its own order: t, x, y, p).
+/// Errors: bad_input, illegal_parameter.
+Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header, const ReadOptions& options);
+
+/// Errors: bad_input, if the array is in column order (Fortran), naming what to do.
+Result<void> require_row_order(const NumpyHeader& header);
+
+/// A source that calls itself `format`. Errors: io; bad_input, if the first rows contradict the order of
+/// columns or leave the unit of times open; illegal_parameter.
+Result<std::unique_ptr<EventSource>> open_arrays(std::string_view format, const std::string& name,
+                                                 EventArrays arrays, const ReadOptions& options);
+
+}  // namespace scarf

@@ -1,0 +1,46 @@
+// The files of a recording of the Event-Camera Dataset, in a folder or in a zip archive.
+// Source: Mueggler et al., "The Event-Camera Dataset and Simulator", 2017; E2VID's zip with one text file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/byte_reader.h"
+#include "io/format.h"
+#include "io/zip_archive.h"
+#include "scarf/result.h"
+
+namespace scarf {
+
+class EcdFiles {
+ public:
+  /// Errors: bad_input, for an archive without events.
+  static Result<EcdFiles> find(const Input& input);
+
+  /// The lines of the events. Errors: io, bad_input.
+  Result<ByteReader> events() const { return open(events_); }
+
+  /// Whether there is a list of images.
+  bool has_images() const;
+  /// Its lines: time and name. Errors: io, bad_input.
+  Result<ByteReader> images() const { return open(kImages); }
+  /// A file by its name in the list of images. Errors: io, bad_input.
+  Result<ByteReader> open(std::string_view name) const;
+
+ private:
+  static constexpr std::string_view kImages = "images.txt";
+
+  const ZipArchive::Member* member(std::string_view name) const;
+
+  std::string folder_;  // where they lie; of an archive: the beginning of its names
+  std::optional<ZipArchive> archive_;
+  std::string events_;
+};
+
+/// Whether a folder holds such a recording.
+bool is_ecd_folder(const std::string& path);
+
+}  // namespace scarf

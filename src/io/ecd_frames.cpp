@@ -1,0 +1,120 @@
+// Lines `t name` of images.txt, t in seconds, and the PNG images that they name.
+#include "io/ecd_frames.h"
+
+#include <utility>
+
+#include "core/text.h"
+#include "io/decimal.h"
+#include "io/png_image.h"
+#include "io/sensor_size.h"
+#include "io/text_lines.h"
+
+namespace scarf {
+namespace {
+
+// The largest sensor has 16,384 x 16,384 pixels, and no recording holds such frames uncompressed.
+constexpr size_t kMaxImageBytes = size_t{64} << 20;
+
+Error bad(std::string message) {
+  return {ErrorCode::bad_input, std::move(message)};
+}
+
+struct Entry {
+  int64_t t;
+  std::string name;
+};
+
+// The list of images, line by line.
+class ImageList {
+ public:
+  explicit ImageList(ByteReader lines) : lines_(std::move(lines)) {}
+
+  Result<std::optional<Entry>> next() {
+    for (;;) {
+      if (const auto filled = lines_.fill(kMaxLine); !filled) return filled.error();
+      const auto bytes = lines_.available();
+      if (bytes.empty()) return std::optional<Entry>();
+      const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      const size_t length = std::min(all.find('\n'), all.size());
+      ++number_;
+      if (length >= kMaxLine) return bad(text("images.txt: line ", number_, " is too long"));
+      const std::string line(all.substr(0, length));
+      lines_.skip(std::min(length + 1, all.size()));
+      if (is_blank(line)) continue;
+      const Fields fields = split(line);
+      const auto t = microseconds_from_seconds(fields.text[0]);
+      if (fields.count != 2 || !t) {
+        return bad(text("images.txt: line ", number_, " is not a time in seconds and a name"));
+      }
+      return std::optional(Entry{*t, std::string(fields.text[1])});
+    }
+  }
+
+ private:
+  ByteReader lines_;
+  uint64_t number_ = 0;
+};
+
+class EcdFrames final : public FrameSource {
+ public:
+  EcdFrames(EcdFiles files, ByteReader list) : files_(std::move(files)), list_(std::move(list)) {}
+
+  Result<std::optional<GreyFrame>> read() override {
+    auto entry = list_.next();
+    if (!entry) return entry.error();
+    if (!*entry) return std::optional<GreyFrame>();
+    auto image = image_of((*entry)->name);
+    if (!image) return Error{image.error().code, text((*entry)->name, ": ", image.error().message)};
+    const int64_t t = (*entry)->t;
+    return std::optional(GreyFrame{t, t, t, *std::move(image)});
+  }
+
+ private:
+  Result<Image<uint8_t>> image_of(const std::string& name) const {
+    auto file = files_.open(name);
+    if (!file) return file.error();
+    std::vector<uint8_t> content;
+    for (;;) {
+      if (const auto filled = file->fill(1); !filled) return filled.error();
+      const auto bytes = file->available();
+      if (bytes.empty()) return decode_png(content);
+      if (content.size() + bytes.size() > kMaxImageBytes) {
+        return bad(text("the image has more than ", kMaxImageBytes, " bytes"));
+      }
+      content.insert(content.end(), bytes.begin(), bytes.end());
+      file->skip(bytes.size());
+    }
+  }
+
+  EcdFiles files_;
+  ImageList list_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSource>> open_ecd_frames(EcdFiles files) {
+  if (!files.has_images()) return bad("this recording has no images.txt, so no frames");
+  auto list = files.images();
+  if (!list) return list.error();
+  return std::unique_ptr<FrameSource>(std::make_unique<EcdFrames>(std::move(files), *std::move(list)));
+}
+
+Result<std::optional<SensorSize>> ecd_image_size(const EcdFiles& files) {
+  if (!files.has_images()) return std::optional<SensorSize>();
+  auto lines = files.images();
+  if (!lines) return lines.error();
+  const auto first = ImageList(*std::move(lines)).next();
+  if (!first) return first.error();
+  if (!*first) return std::optional<SensorSize>();
+  auto file = files.open((*first)->name);
+  if (!file) return file.error();
+  constexpr size_t kBytes = 64;
+  if (const auto filled = file->fill(kBytes); !filled) return filled.error();
+  const auto size = png_size(file->available());
+  if (!size) return bad(text((*first)->name, " is no PNG image"));
+  const auto legal = checked_sensor(size->width, size->height, (*first)->name);
+  if (!legal) return legal.error();
+  return std::optional(*legal);
+}
+
+}  // namespace scarf

@@ -1,0 +1,48 @@
+// Reader of the Event-Camera Dataset's folders and zip archives, and of E2VID's zip archives.
+
+#include <utility>
+
+#include "io/ecd_files.h"
+#include "io/ecd_frames.h"
+#include "io/known_formats.h"
+#include "io/text_reader.h"
+
+namespace scarf {
+namespace {
+
+constexpr std::string_view kName = "ecd";
+
+Result<std::unique_ptr<EventSource>> open_ecd(Input input, const ReadOptions& options) {
+  auto files = EcdFiles::find(input);
+  if (!files) return files.error();
+  // The size of the images is the sensor's, but none of the recording's if it cannot be told.
+  const auto size = ecd_image_size(*files);
+  if (!size && !options.sensor) return size.error();
+  auto events = files->events();
+  if (!events) return events.error();
+  input.bytes = *std::move(events);
+  return open_text_lines(kName, std::move(input), size ? *size : std::nullopt, options);
+}
+
+Result<std::unique_ptr<FrameSource>> open_frames_of_ecd(Input input, const ReadOptions& /*options*/) {
+  auto files = EcdFiles::find(input);
+  if (!files) return files.error();
+  return open_ecd_frames(*std::move(files));
+}
+
+// Asked after other formats that are archives.
+bool recognise_ecd(const Beginning& beginning) {
+  return beginning.folder ? is_ecd_folder(beginning.path) : looks_like_zip(beginning.bytes);
+}
+
+}  // namespace
+
+const Format kEcdFormat = {
+    .name = kName,
+    .title = "Event-Camera Dataset, folder or zip (events.txt, images); zip of E2VID (one text file)",
+    .options = kTakesColumns | kTakesTimeUnit | kTakesStream,
+    .recognise = recognise_ecd,
+    .open = open_ecd,
+    .open_frames = open_frames_of_ecd};
+
+}  // namespace scarf
