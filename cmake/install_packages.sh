@@ -7,6 +7,7 @@ packages=(
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
   libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
+  liblz4-dev libzstd-dev libbz2-dev libpugixml-dev libsqlite3-dev python3-lz4 python3-zstandard
 )
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

@@ -11,6 +11,7 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
+    &kAedat4Format,
     &kTextFormat,
     &kEvt2Format,
     &kEvt3Format,

@@ -5,6 +5,7 @@
 
 namespace scarf {
 
+extern const Format kAedat4Format;
 extern const Format kEvt2Format;
 extern const Format kEvt3Format;
 extern const Format kTextFormat;
