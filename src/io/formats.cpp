@@ -11,10 +11,7 @@ namespace {
 
 // Recognised in this order: signatures first, then what is guessed from many bytes.
 constexpr const Format* kFormats[] = {
-    &kAedat4Format,
-    &kTextFormat,
-    &kEvt2Format,
-    &kEvt3Format,
+    &kAedat4Format, &kRosbagFormat, &kRosbag2Format, &kMcapFormat, &kTextFormat, &kEvt2Format, &kEvt3Format,
 };
 
 std::string names(bool (*wanted)(const Format&)) {
