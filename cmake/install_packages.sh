@@ -10,6 +10,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   libhdf5-dev hdf5-filter-plugin-blosc-serial hdf5-filter-plugin libzip-dev libpng-dev
   python3-h5py python3-numpy
+  liblz4-dev libzstd-dev libbz2-dev libpugixml-dev libsqlite3-dev python3-lz4 python3-zstandard
 )
 packages+=("$@")
 

@@ -22,7 +22,7 @@ class CheckedSink : public EventSink {
   /// What is left to do before output_ is finished. Errors: io.
   virtual Result<void> complete() { return {}; }
   /// Events encoded so far.
-  uint64_t count() const { return count_; }
+  uint64_t count() const { return check_.count(); }
 
   ByteWriter output_;
 

@@ -29,6 +29,8 @@ class EventCheck {
 
   /// For formats whose range of times depends on the first event.
   void set_t_end(int64_t t_end) { limits_.t_end = t_end; }
+  /// Events accepted so far.
+  uint64_t count() const { return count_; }
   bool accepts(const Event& event) const { return objection(event).empty(); }
   /// How many of the next events, from the front, can be written.
   size_t accepted(std::span<const Event> events);

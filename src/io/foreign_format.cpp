@@ -16,12 +16,13 @@ constexpr Magic kMagics[] = {
     {"\xfd\x37zXZ\0"sv, "looks like xz: unpack it first"},
     {"\x28\xb5\x2f\xfd"sv, "looks like Zstandard: unpack it first"},
     {"7z\xbc\xaf\x27\x1c"sv, "looks like a 7z archive: unpack it first"},
-    {"#!AER-DAT4"sv, "AEDAT4 is not supported yet: export it as text"},
-    {"#!AER-DAT"sv, "AEDAT before version 4 is not supported: export it as text"},
-    {"#ROSBAG V"sv, "ROS bags are not supported yet: export the events as text or RAW"},
-    {"\x89MCAP0\r\n"sv, "MCAP (ROS 2 bag) is not supported yet: export the events as text or RAW"},
-    {"SQLite format 3\0"sv,
-     "looks like a SQLite database (ROS 2 bag), not supported yet: export the events as text"},
+    {"#!AER-DAT4.0"sv, {}},
+    {"#!AER-DAT2"sv,
+     "this is AEDAT 2.0 (jAER, v2e), which scarf does not read: convert it to AEDAT4 with iniVation's DV or to "
+     "text, or let v2e write text (--dvs_text)"},
+    {"#!AER-DAT"sv,
+     "this is AEDAT of another version than 4.0, which scarf does not read: convert it to AEDAT4 with "
+     "iniVation's DV, or to text"},
     {"\x89PNG"sv, "looks like a PNG image, not events"},
     {"\xff\xd8\xff"sv, "looks like a JPEG image, not events"},
 };

@@ -5,6 +5,7 @@
 
 namespace scarf {
 
+extern const Format kAedat4Format;
 extern const Format kCsvFormat;
 extern const Format kDatFormat;
 extern const Format kDsecFormat;
@@ -18,11 +19,14 @@ extern const Format kEvt3Format;
 extern const Format kEvt4Format;
 extern const Format kHdf5Format;
 extern const Format kM3edFormat;
+extern const Format kMcapFormat;
 extern const Format kMetavisionHdf5Format;
 extern const Format kMvsecFormat;
 extern const Format kNmnistFormat;
 extern const Format kNpyFormat;
 extern const Format kNpzFormat;
+extern const Format kRosbag2Format;
+extern const Format kRosbagFormat;
 extern const Format kRvtFormat;
 extern const Format kTextFormat;
 extern const Format kYarpFormat;

@@ -74,6 +74,7 @@ Result<std::unique_ptr<Source>> open_as(const Format& format, Input input, const
 Error unrecognised(const Input& input) {
   const auto bytes = input.bytes.available();
   std::string_view what = foreign_format(bytes);
+  if (!what.empty()) return {ErrorCode::bad_input, std::string(what)};
   if (input.folder) what = "this folder is no recording that scarf knows";
   if (input.header) what = "the header names no format, and the words do not tell";
   if (what.empty()) what = bytes.empty() ? "the file is empty" : "not recognised as events";
