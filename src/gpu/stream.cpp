@@ -6,6 +6,7 @@
 #include "core/batch_check.h"
 #include "core/text.h"
 #include "gpu/submission.h"
+#include "gpu/word_feed.h"
 
 namespace scarf {
 
@@ -88,6 +89,9 @@ Result<void> Stream::start() {
 Result<PushReport> Stream::push(std::span<const Event> events) {
   std::lock_guard lock(mutex_);
   if (auto r = ready_to_push(); !r) return r.error();
+  if (words_ != nullptr) {
+    if (auto r = words_->settle_all(); !r) return r.error();
+  }
   auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
   const StreamFacts before = facts_;
@@ -105,7 +109,7 @@ Result<PushReport> Stream::push(std::span<const Event> events) {
     if (!slot) return fail(slot.error());
     StagingSlot& s = **slot;
     const size_t n = std::min<size_t>(events.size() - accepted, room(s));
-    std::memcpy(s.host.mapped_as<Event>() + s.fill, events.data() + accepted, n * sizeof(Event));
+    std::memcpy(s.events.host.mapped_as<Event>() + s.fill, events.data() + accepted, n * sizeof(Event));
     s.fill += static_cast<uint32_t>(n);
     accepted += n;
     if (room(s) == 0) {
@@ -122,10 +126,13 @@ Result<std::span<Event>> Stream::acquire(size_t n) {
     return Error{ErrorCode::illegal_parameter,
                  text("acquire of ", n, " events, legal is 0 to ", max_acquire())};
   }
+  if (words_ != nullptr) {
+    if (auto r = words_->settle_all(); !r) return r.error();
+  }
   const auto slot = open_slot(std::max<size_t>(n, 1));
   if (!slot) return slot.error().code == ErrorCode::would_block ? slot.error() : fail(slot.error());
   acquired_ = n;
-  return std::span((*slot)->host.mapped_as<Event>() + (*slot)->fill, n);
+  return std::span((*slot)->events.host.mapped_as<Event>() + (*slot)->fill, n);
 }
 
 Result<PushReport> Stream::commit(size_t count) {
@@ -137,7 +144,7 @@ Result<PushReport> Stream::commit(size_t count) {
   }
   acquired_.reset();
   StagingSlot& s = staging_[open_];
-  const std::span<const Event> events(s.host.mapped_as<Event>() + s.fill, count);
+  const std::span<const Event> events(s.events.host.mapped_as<Event>() + s.fill, count);
   const auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
   facts_ = with(facts_, *batch);
@@ -151,13 +158,13 @@ Result<PushReport> Stream::commit(size_t count) {
 Result<void> Stream::flush() {
   std::lock_guard lock(mutex_);
   if (auto r = usable(); !r) return r;
-  return submit_open();
+  return submit_gathered();
 }
 
 Result<void> Stream::finish() {
   std::unique_lock lock(mutex_);
   if (auto r = usable(); !r) return r;
-  if (auto r = submit_open(); !r) return r;
+  if (auto r = submit_gathered(); !r) return r;
   const uint64_t last = last_submission_;
   lock.unlock();
   return device_.compute().wait(last);
@@ -165,6 +172,9 @@ Result<void> Stream::finish() {
 
 Result<void> Stream::reset() {
   std::lock_guard lock(mutex_);
+  if (words_ != nullptr) {
+    if (auto r = words_->discard_all(); !r) return r;
+  }
   auto commands = take_commands();
   if (!commands) return commands.error();
   Commands& c = (*commands)->compute;
@@ -203,7 +213,8 @@ std::vector<StageTime> Stream::stage_times() {
 uint64_t Stream::memory_bytes() {
   std::lock_guard lock(mutex_);
   uint64_t bytes = pipeline_->memory_bytes() + query_bytes_;
-  for (const StagingSlot& s : staging_) bytes += s.host.size() + s.device.size();
+  for (const StagingSlot& s : staging_) bytes += s.events.memory_bytes();
+  if (words_ != nullptr) bytes += words_->memory_bytes();
   return bytes;
 }
 
@@ -223,27 +234,14 @@ Result<void> Stream::ready_to_push() const {
                "staging memory is acquired: commit it before the next push or acquire"};
 }
 
-// Shaders read host memory where that is device memory too; elsewhere events are copied, by the transfer
-// queue if the device has one.
-DeviceOptions::Upload Stream::upload_path(const Buffer& host) const {
-  const Upload wish = device_.options().upload;
-  if (wish != Upload::automatic || host.device_local()) return wish;
-  return device_.compute().family() == device_.transfer().family() ? Upload::staged : Upload::transfer_queue;
-}
-
 Result<Stream::StagingSlot> Stream::make_slot() {
-  const uint64_t bytes = max_acquire() * sizeof(Event);
   StagingSlot s;
-  auto host = Buffer::create(device_, "the staging memory", bytes, MemoryUse::upload);
-  if (!host) return host.error();
-  s.host = std::move(*host);
-  upload_ = upload_path(s.host);
-  if (upload_ != Upload::automatic) {
-    auto device = Buffer::create(device_, "the event memory", bytes, MemoryUse::device);
-    if (!device) return device.error();
-    s.device = std::move(*device);
-  }
-  auto binding = pipeline_->bind_events(upload_ == Upload::automatic ? s.host : s.device);
+  auto events =
+      StagedBuffer::create(device_, "the staging memory", "the event memory", max_acquire() * sizeof(Event));
+  if (!events) return events.error();
+  s.events = std::move(*events);
+  upload_ = upload_path(device_, s.events.host);
+  auto binding = pipeline_->bind_events(s.events.for_shaders());
   if (!binding) return binding.error();
   s.binding = std::move(*binding);
   return s;
@@ -268,6 +266,10 @@ Result<Stream::StagingSlot*> Stream::open_slot(size_t n) {
   return &staging_[open_];
 }
 
+Result<void> Stream::submit_gathered() {
+  return words_ != nullptr && words_->holds_words() ? words_->settle_all() : submit_open();
+}
+
 // Submits the gathered events, if there are any. If that fails they stay where they are.
 Result<void> Stream::submit_open() {
   StagingSlot& s = staging_[open_];
@@ -286,28 +288,36 @@ Result<void> Stream::submit_open() {
 }
 
 Result<void> Stream::submit_push(PushCommands& commands, const StagingSlot& s) {
-  Commands& c = commands.compute;
-  const vulkan::Queue* wait_queue = nullptr;
-  uint64_t wait_value = 0;
   const uint64_t offset = s.begin * sizeof(Event);
   const uint64_t bytes = (s.fill - s.begin) * sizeof(Event);
+  if (auto r = begin_with_upload(commands, s.events, offset, bytes); !r) return r;
+  pipeline_->record_push(commands.compute, *s.binding, s.begin, s.fill - s.begin, facts_);
+  return submit(commands);
+}
+
+// Begins `commands`: shaders in what is recorded behind may read the bytes.
+Result<void> Stream::begin_with_upload(PushCommands& commands, const StagedBuffer& memory, uint64_t offset,
+                                       uint64_t bytes) {
+  commands.transferred = 0;
   if (upload_ == Upload::transfer_queue) {
     Commands& t = commands.transfer;
     if (auto r = t.wait(); !r) return r;
     if (auto r = t.begin(); !r) return r;
-    t.copy(s.host, offset, s.device, offset, bytes);
+    t.copy(memory.host, offset, memory.device, offset, bytes);
     if (auto r = t.submit(); !r) return r;
-    wait_queue = &device_.transfer();
-    wait_value = last_transfer_ = t.value();
+    commands.transferred = last_transfer_ = t.value();
   }
-  if (auto r = c.begin(); !r) return r;
+  if (auto r = commands.compute.begin(); !r) return r;
   if (upload_ == Upload::staged) {
-    c.copy(s.host, offset, s.device, offset, bytes);
-    c.barrier();
-    c.mark("upload");
+    commands.compute.copy(memory.host, offset, memory.device, offset, bytes);
+    commands.compute.barrier();
+    commands.compute.mark("upload");
   }
-  pipeline_->record_push(c, *s.binding, s.begin, s.fill - s.begin, facts_);
-  return submit(c, wait_queue, wait_value);
+  return {};
+}
+
+Result<void> Stream::submit(PushCommands& commands) {
+  return submit(commands.compute, commands.transferred);
 }
 
 // Moves on to the next slot if that is free, so that the next batch does not have to fit into what is left
@@ -365,8 +375,10 @@ Result<void> Stream::copy_back(Query& query, std::span<const Part> parts) {
   return {};
 }
 
-Result<void> Stream::submit(Commands& c, const vulkan::Queue* wait_queue, uint64_t wait_value) {
-  if (auto r = c.submit(wait_queue, wait_value); !r) return r;
+// `transferred`: the place in the transfer queue's timeline to wait for; 0: none.
+Result<void> Stream::submit(Commands& c, uint64_t transferred) {
+  const vulkan::Queue* const wait_queue = transferred == 0 ? nullptr : &device_.transfer();
+  if (auto r = c.submit(wait_queue, transferred); !r) return r;
   last_submission_ = c.value();
   return {};
 }
@@ -400,7 +412,7 @@ Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_s
 
   std::lock_guard lock(mutex_);
   if (auto r = usable(); !r) return r.error();
-  if (auto r = submit_open(); !r) return r.error();
+  if (auto r = submit_gathered(); !r) return r.error();
   auto taken = take_query(kind);
   if (!taken) return taken.error();
   Query& q = **taken;
