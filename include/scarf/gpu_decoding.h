@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "scarf/gpu.h"
@@ -42,6 +43,8 @@ class GpuDecoder {
   /// What was met in all bytes so far, equal to the reader's report: waits until they are decoded.
   /// truncated_bytes are those at the end that do not make a whole word yet; they count with the next push.
   virtual Result<ReadReport> report() = 0;
+  /// The time of the representation's newest event; nullopt if it has none. Waits as report() does.
+  virtual Result<std::optional<int64_t>> newest() = 0;
 };
 
 /// A decoder that stands at the beginning of a stream of words. A reset of the representation empties that,

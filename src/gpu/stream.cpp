@@ -109,8 +109,7 @@ Result<PushReport> Stream::push(std::span<const Event> events) {
     if (!slot) return fail(slot.error());
     StagingSlot& s = **slot;
     const size_t n = std::min<size_t>(events.size() - accepted, room(s));
-    std::memcpy(s.events.host.mapped_as<Event>() + s.fill, events.data() + accepted, n * sizeof(Event));
-    s.fill += static_cast<uint32_t>(n);
+    append(s, events.subspan(accepted, n));
     accepted += n;
     if (room(s) == 0) {
       if (auto r = submit_open(); !r) return fail(r.error());
@@ -132,7 +131,7 @@ Result<std::span<Event>> Stream::acquire(size_t n) {
   const auto slot = open_slot(std::max<size_t>(n, 1));
   if (!slot) return slot.error().code == ErrorCode::would_block ? slot.error() : fail(slot.error());
   acquired_ = n;
-  return std::span((*slot)->events.host.mapped_as<Event>() + (*slot)->fill, n);
+  return std::span(lend(**slot, n), n);
 }
 
 Result<PushReport> Stream::commit(size_t count) {
@@ -144,11 +143,11 @@ Result<PushReport> Stream::commit(size_t count) {
   }
   acquired_.reset();
   StagingSlot& s = staging_[open_];
-  const std::span<const Event> events(s.events.host.mapped_as<Event>() + s.fill, count);
+  const std::span<const Event> events(lend(s, 0), count);
   const auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
   facts_ = with(facts_, *batch);
-  s.fill += static_cast<uint32_t>(count);
+  append(s, events);
   if (room(s) == 0) {
     if (auto r = submit_open(); !r) return fail(r.error());
   }
@@ -189,6 +188,7 @@ Result<void> Stream::reset() {
   // Events gathered so far belong to the old stream.
   StagingSlot& open = staging_[open_];
   open.begin = open.fill;
+  if (packed()) open.packer.end_part();
   facts_ = {};
   failure_.reset();
   return {};
@@ -212,8 +212,8 @@ std::vector<StageTime> Stream::stage_times() {
 
 uint64_t Stream::memory_bytes() {
   std::lock_guard lock(mutex_);
-  uint64_t bytes = pipeline_->memory_bytes() + query_bytes_;
-  for (const StagingSlot& s : staging_) bytes += s.events.memory_bytes();
+  uint64_t bytes = pipeline_->memory_bytes() + query_bytes_ + unpacker_.memory_bytes();
+  for (const StagingSlot& s : staging_) bytes += s.memory.memory_bytes();
   if (words_ != nullptr) bytes += words_->memory_bytes();
   return bytes;
 }
@@ -236,15 +236,57 @@ Result<void> Stream::ready_to_push() const {
 
 Result<Stream::StagingSlot> Stream::make_slot() {
   StagingSlot s;
-  auto events =
-      StagedBuffer::create(device_, "the staging memory", "the event memory", max_acquire() * sizeof(Event));
-  if (!events) return events.error();
-  s.events = std::move(*events);
-  upload_ = upload_path(device_, s.events.host);
-  auto binding = pipeline_->bind_events(s.events.for_shaders());
-  if (!binding) return binding.error();
-  s.binding = std::move(*binding);
+  // How large it is depends on where it is, which a small buffer tells.
+  if (staging_.empty()) {
+    const auto probe = Buffer::create(device_, "the staging memory", 1, MemoryUse::upload);
+    if (!probe) return probe.error();
+    upload_ = upload_path(device_, *probe);
+  }
+  const auto most_events = static_cast<uint32_t>(max_acquire());
+  const uint64_t bytes =
+      packed() ? EventPacker::memory_words(most_events) * sizeof(uint32_t) : most_events * sizeof(Event);
+  auto memory = StagedBuffer::create(device_, "the staging memory", "the event memory", bytes);
+  if (!memory) return memory.error();
+  s.memory = std::move(*memory);
+  if (!packed()) {
+    auto binding = pipeline_->bind_events(s.memory.for_shaders());
+    if (!binding) return binding.error();
+    s.binding = std::move(*binding);
+    return s;
+  }
+  s.packer = EventPacker(sensor(), s.memory.host.mapped_as<uint32_t>(), most_events);
+  PipelineBuilder builder(device_);
+  if (staging_.empty()) unpacker_.build(builder, most_events);
+  unpacker_.bind(builder, s.unpack, s.memory.for_shaders());
+  if (!builder.result()) return builder.result().error();
+  if (staging_.empty()) {
+    auto binding = pipeline_->bind_events(unpacker_.events());
+    if (!binding) return binding.error();
+    unpacked_binding_ = std::move(*binding);
+  }
   return s;
+}
+
+// At most room(s) events.
+void Stream::append(StagingSlot& s, std::span<const Event> events) {
+  Event* const place = s.memory.host.mapped_as<Event>() + s.fill;
+  if (packed())
+    s.packer.append(events);
+  else if (events.data() != place)  // events of acquire are there already
+    std::memcpy(place, events.data(), events.size_bytes());
+  s.fill += static_cast<uint32_t>(events.size());
+}
+
+// Memory for n events behind those gathered; with fewer it is the same again.
+Event* Stream::lend(StagingSlot& s, size_t n) {
+  if (!packed()) return s.memory.host.mapped_as<Event>() + s.fill;
+  if (lent_.size() < n) lent_.resize(n);
+  return lent_.data();
+}
+
+void Stream::empty(StagingSlot& s) {
+  s.begin = s.fill = 0;
+  if (packed()) s.packer.restart();
 }
 
 // The slot that gathers events, with room for n.
@@ -261,7 +303,7 @@ Result<Stream::StagingSlot*> Stream::open_slot(size_t n) {
     }
     if (auto r = device_.compute().wait(s.last_use); !r) return r.error();
     open_ = next;
-    s.begin = s.fill = 0;
+    empty(s);
   }
   return &staging_[open_];
 }
@@ -283,33 +325,52 @@ Result<void> Stream::submit_open() {
   if (!submitted) return submitted;
   s.last_use = last_submission_;
   s.begin = s.fill;
+  if (packed()) s.packer.end_part();
   if (!acquired_) advance();
   return {};
 }
 
-Result<void> Stream::submit_push(PushCommands& commands, const StagingSlot& s) {
-  const uint64_t offset = s.begin * sizeof(Event);
-  const uint64_t bytes = (s.fill - s.begin) * sizeof(Event);
-  if (auto r = begin_with_upload(commands, s.events, offset, bytes); !r) return r;
+Result<void> Stream::submit_push(PushCommands& commands, StagingSlot& s) {
+  if (packed()) return submit_packed(commands, s);
+  if (auto r = begin_with_upload(commands, s.memory, {}); !r) return r;
   pipeline_->record_push(commands.compute, *s.binding, s.begin, s.fill - s.begin, facts_);
   return submit(commands);
 }
 
+Result<void> Stream::submit_packed(PushCommands& commands, StagingSlot& s) {
+  const EventPacker::Part part = s.packer.part();
+  const auto range = [](size_t begin, size_t words) {
+    return Range{begin * sizeof(uint32_t), words * sizeof(uint32_t)};
+  };
+  if (auto r = begin_with_upload(
+          commands, s.memory,
+          {range(part.table_begin, part.table_words), range(part.data_begin, part.data_words)});
+      !r) {
+    return r;
+  }
+  unpacker_.record(commands.compute, s.unpack, part.push);
+  pipeline_->record_push(commands.compute, *unpacked_binding_, 0, s.fill - s.begin, facts_);
+  return submit(commands);
+}
+
 // Begins `commands`: shaders in what is recorded behind may read the bytes.
-Result<void> Stream::begin_with_upload(PushCommands& commands, const StagedBuffer& memory, uint64_t offset,
-                                       uint64_t bytes) {
+Result<void> Stream::begin_with_upload(PushCommands& commands, const StagedBuffer& memory,
+                                       std::initializer_list<Range> ranges) {
+  const auto copy = [&](Commands& c) {
+    for (const Range& r : ranges) c.copy(memory.host, r.offset, memory.device, r.offset, r.bytes);
+  };
   commands.transferred = 0;
   if (upload_ == Upload::transfer_queue) {
     Commands& t = commands.transfer;
     if (auto r = t.wait(); !r) return r;
     if (auto r = t.begin(); !r) return r;
-    t.copy(memory.host, offset, memory.device, offset, bytes);
+    copy(t);
     if (auto r = t.submit(); !r) return r;
     commands.transferred = last_transfer_ = t.value();
   }
   if (auto r = commands.compute.begin(); !r) return r;
   if (upload_ == Upload::staged) {
-    commands.compute.copy(memory.host, offset, memory.device, offset, bytes);
+    copy(commands.compute);
     commands.compute.barrier();
     commands.compute.mark("upload");
   }
@@ -327,7 +388,7 @@ void Stream::advance() {
   const auto done = device_.compute().done(staging_[next].last_use);
   if (!done || !*done) return;
   open_ = next;
-  staging_[next].begin = staging_[next].fill = 0;
+  empty(staging_[next]);
 }
 
 Result<std::unique_ptr<Stream::PushCommands>> Stream::take_commands() {

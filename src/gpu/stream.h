@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/event_packer.h"
+#include "gpu/event_unpacker.h"
 #include "gpu/pipeline.h"
 #include "gpu/staging.h"
 #include "scarf/gpu.h"
@@ -76,10 +79,12 @@ class Stream : public std::enable_shared_from_this<Stream> {
   using Upload = DeviceOptions::Upload;
 
   // Staging memory. Events begin .. fill-1 are pushed but not yet submitted, those before are in flight or
-  // done.
+  // done. Where shaders read it themselves it holds events as they are; what is copied is packed.
   struct StagingSlot {
-    StagedBuffer events;
-    std::unique_ptr<EventBinding> binding;
+    StagedBuffer memory;
+    std::unique_ptr<EventBinding> binding;  // of events as they are
+    EventPacker packer;
+    vulkan::BoundKernel unpack;
     uint32_t begin = 0;
     uint32_t fill = 0;
     uint64_t last_use = 0;  // place in the compute timeline
@@ -117,16 +122,26 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Result<void> ready_to_push() const;
 
   Result<StagingSlot> make_slot();
-  size_t room(const StagingSlot& s) const { return max_acquire() - s.fill; }
+  bool packed() const { return upload_ != Upload::automatic; }
+  size_t room(const StagingSlot& s) const { return packed() ? s.packer.room() : max_acquire() - s.fill; }
+  void append(StagingSlot& s, std::span<const Event> events);
+  Event* lend(StagingSlot& s, size_t n);
   Result<StagingSlot*> open_slot(size_t n);
   Result<void> submit_gathered();
   Result<void> submit_open();
-  Result<void> submit_push(PushCommands& commands, const StagingSlot& s);
+  Result<void> submit_push(PushCommands& commands, StagingSlot& s);
+  Result<void> submit_packed(PushCommands& commands, StagingSlot& s);
+  void empty(StagingSlot& s);
   void advance();
 
   Result<std::unique_ptr<PushCommands>> take_commands();
-  Result<void> begin_with_upload(PushCommands& commands, const StagedBuffer& memory, uint64_t offset,
-                                 uint64_t bytes);
+  // Bytes of staging memory.
+  struct Range {
+    uint64_t offset = 0;
+    uint64_t bytes = 0;
+  };
+  Result<void> begin_with_upload(PushCommands& commands, const StagedBuffer& memory,
+                                 std::initializer_list<Range> ranges);
   Result<void> submit(PushCommands& commands);
   Result<std::unique_ptr<Query>> take_query(QueryKind kind);
   Result<void> copy_back(Query& query, std::span<const Part> parts);
@@ -138,7 +153,10 @@ class Stream : public std::enable_shared_from_this<Stream> {
   const GpuOptions options_;
   std::mutex mutex_;
   std::unique_ptr<Pipeline> pipeline_;
-  Upload upload_ = Upload::automatic;  // automatic: shaders read the staging memory itself
+  Upload upload_ = Upload::automatic;               // automatic: shaders read the staging memory itself
+  EventUnpacker unpacker_;                          // where events are packed; so are the next two
+  std::unique_ptr<EventBinding> unpacked_binding_;  // of its events
+  std::vector<Event> lent_;                         // what acquire hands out
   std::vector<StagingSlot> staging_;
   size_t open_ = 0;                 // the staging slot that gathers events
   std::optional<size_t> acquired_;  // events handed out by acquire, behind the gathered ones

@@ -70,21 +70,33 @@ void WordDecoder::record_reset(Commands& commands) const {
   commands.barrier();
 }
 
-void WordDecoder::record_count(Commands& commands, const Piece& piece, uint32_t words) const {
+void WordDecoder::record_pass(Commands& commands, const Piece& piece, uint32_t words, Pass pass) const {
   const layout::DecodePush p = push(words);
-  const uint64_t lanes = uint64_t{p.blocks} * kDecodeGroup;
-  const auto pass = [&](const vulkan::BoundKernel& kernel, uint64_t invocations) {
-    commands.dispatch(kernel, invocations, kDecodeGroup, p);
+  const auto dispatch = [&](const vulkan::BoundKernel& kernel, uint32_t workgroups) {
+    commands.dispatch(kernel, uint64_t{workgroups} * kDecodeGroup, kDecodeGroup, p);
     commands.barrier();
   };
-  if (words_ == CameraWords::evt2) {
-    pass(piece.skip, lanes);
-    pass(piece.skip_scan, kDecodeGroup);
+  switch (pass) {
+    case Pass::skip:
+      return dispatch(piece.skip, p.blocks);
+    case Pass::skip_scan:
+      return dispatch(piece.skip_scan, 1);
+    case Pass::fold:
+      return dispatch(piece.fold, p.blocks);
+    case Pass::scan:
+      return dispatch(piece.scan, 1);
+    case Pass::count:
+      return dispatch(piece.count, p.blocks);
+    case Pass::total:
+      return dispatch(piece.total, 1);
   }
-  pass(piece.fold, lanes);
-  pass(piece.scan, kDecodeGroup);
-  pass(piece.count, lanes);
-  pass(piece.total, kDecodeGroup);
+}
+
+void WordDecoder::record_count(Commands& commands, const Piece& piece, uint32_t words) const {
+  for (const Pass pass : {Pass::skip, Pass::skip_scan, Pass::fold, Pass::scan, Pass::count, Pass::total}) {
+    const bool skips = pass == Pass::skip || pass == Pass::skip_scan;
+    if (!skips || words_ == CameraWords::evt2) record_pass(commands, piece, words, pass);
+  }
   commands.mark("decode");
 }
 

@@ -45,6 +45,10 @@ class WordDecoder {
   void record_write(vulkan::Commands& commands, const Piece& piece, uint32_t words, uint32_t first,
                     uint32_t count) const;
 
+  /// One of record_count's passes, by itself. Skips are made and used by EVT2 only.
+  enum class Pass { skip, skip_scan, fold, scan, count, total };
+  void record_pass(vulkan::Commands& commands, const Piece& piece, uint32_t words, Pass pass) const;
+
   const vulkan::Buffer& events() const { return events_; }
   const vulkan::Buffer& carry() const { return carry_; }  ///< a layout::DecodeCarry
 

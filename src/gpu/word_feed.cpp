@@ -208,7 +208,8 @@ Result<void> WordFeed::submit_open() {
   auto commands = stream_->take_commands();
   if (!commands) return commands.error();
   const auto submitted = [&]() -> Result<void> {
-    if (auto r = stream_->begin_with_upload(**commands, slot.piece.words, 0, uint64_t{words} * word_bytes_);
+    if (auto r =
+            stream_->begin_with_upload(**commands, slot.piece.words, {{0, uint64_t{words} * word_bytes_}});
         !r) {
       return r;
     }
@@ -351,6 +352,13 @@ Result<ReadReport> WordFeed::report() {
   ReadReport report = report_;
   report.truncated_bytes = gathered();
   return report;
+}
+
+Result<std::optional<int64_t>> WordFeed::newest() {
+  std::lock_guard lock(stream_->mutex_);
+  if (auto r = stream_->usable(); !r) return r.error();
+  if (auto r = stream_->submit_gathered(); !r) return r.error();
+  return stream_->facts_.newest;
 }
 
 Result<std::unique_ptr<GpuDecoder>> make_gpu_decoder(GpuRepresentation& representation, CameraWords words) {

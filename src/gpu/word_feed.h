@@ -26,6 +26,7 @@ class WordFeed final : public GpuDecoder {
   Result<size_t> push(std::span<const uint8_t> bytes) override;
   size_t max_batch() const override { return capacity_bytes_; }
   Result<ReadReport> report() override;
+  Result<std::optional<int64_t>> newest() override;
 
   // For the stream, which holds its mutex while it calls these.
 
