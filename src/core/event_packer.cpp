@@ -1,9 +1,9 @@
 #include "core/event_packer.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
-#include <limits>
 
 #include "core/ceil_div.h"
 
@@ -18,24 +18,29 @@ constexpr size_t kEventWords = sizeof(Event) / sizeof(uint32_t);
 // Parts that may end within a block before the memory counts as full.
 constexpr uint32_t kShortBlocks = 64;
 
-struct Extent {
-  int64_t earliest = std::numeric_limits<int64_t>::max();
-  int64_t latest = std::numeric_limits<int64_t>::min();
-  uint32_t x = 0;  // all bits that are set in any of them
-  uint32_t y = 0;
-  uint32_t p = 0;
+// Events of a block as numbers, two for each: its time; and x, y and p in bits 0, 16 and 32. In this form
+// loops over events become vector code.
+using Numbers = std::array<uint64_t, 2 * kPackedBlock>;
+
+// All bits that are set in any event: in its offset from a time, and in its second number.
+struct Bits {
+  uint64_t offset = 0;
+  uint64_t place = 0;
 };
 
-Extent extent_of(std::span<const Event> events) {
-  Extent all;
-  for (const Event& e : events) {
-    all.earliest = std::min(all.earliest, e.t);
-    all.latest = std::max(all.latest, e.t);
-    all.x |= e.x;
-    all.y |= e.y;
-    all.p |= e.p;
+Bits bits_of(const Numbers& numbers, size_t count, uint64_t base) {
+  Bits all;
+  for (size_t i = 0; i < count; ++i) {
+    all.offset |= numbers[2 * i] - base;
+    all.place |= numbers[2 * i + 1];
   }
   return all;
+}
+
+uint64_t earliest_of(std::span<const Event> events) {
+  int64_t earliest = events.front().t;
+  for (const Event& e : events) earliest = std::min(earliest, e.t);
+  return static_cast<uint64_t>(earliest);
 }
 
 }  // namespace
@@ -115,38 +120,47 @@ void EventPacker::end_part() {
 
 // Writes block number blocks_ to word end_; returns its words.
 size_t EventPacker::pack_block(std::span<const Event> events) {
-  const Extent extent = extent_of(events);
   const uint32_t place_bits = x_bits_ + y_bits_ + 1;
   const uint32_t time_bits = 32 - place_bits;
-  const auto base = static_cast<uint64_t>(extent.earliest);
-  const uint64_t span = static_cast<uint64_t>(extent.latest) - base;
-  const bool fits = extent.x >> x_bits_ == 0 && extent.y >> y_bits_ == 0 && extent.p <= 1;
+  const size_t count = events.size();
+  Numbers numbers;
+  std::memcpy(numbers.data(), events.data(), events.size_bytes());
+  // The first event is mostly the earliest; if it is not, its offsets are too long.
+  uint64_t base = numbers[0];
+  Bits bits = bits_of(numbers, count, base);
+  if (bits.offset >> time_bits != 0) {
+    base = earliest_of(events);
+    bits = bits_of(numbers, count, base);
+  }
+  const bool fits = (bits.place & 0xFFFF) >> x_bits_ == 0 && (bits.place >> 16 & 0xFFFF) >> y_bits_ == 0 &&
+                    (bits.place >> 32 & 0xFF) <= 1;
   uint32_t form = 0;
-  while (form < kPackedRaw && (!fits || span >> (time_bits + 8 * form) != 0)) ++form;
+  while (form < kPackedRaw && (!fits || bits.offset >> (time_bits + 8 * form) != 0)) ++form;
 
   uint32_t* const table = memory_ + size_t{blocks_} * kPackedTableWords;
   table[0] = static_cast<uint32_t>(end_) << 2 | form;
   table[1] = static_cast<uint32_t>(base);
   table[2] = static_cast<uint32_t>(base >> 32);
   uint32_t* const words = memory_ + end_;
-  const size_t count = events.size();
   if (form == kPackedRaw) {
     std::memcpy(words, events.data(), events.size_bytes());
     return count * kEventWords;
   }
+  const uint32_t x_bits = x_bits_;  // a local: nothing that is written may change it
   for (size_t i = 0; i < count; ++i) {
-    const Event& e = events[i];
-    const auto offset = static_cast<uint32_t>(static_cast<uint64_t>(e.t) - base);
-    words[i] = e.x | uint32_t{e.y} << x_bits_ | uint32_t{e.p} << (place_bits - 1) | offset << place_bits;
+    const uint64_t place = numbers[2 * i + 1];
+    words[i] =
+        static_cast<uint32_t>((place & 0xFFFF) | (place >> 16 & 0xFFFF) << x_bits |
+                              (place >> 32 & 1) << (place_bits - 1) | (numbers[2 * i] - base) << place_bits);
   }
   auto* const more = reinterpret_cast<uint8_t*>(words + count);
   if (form == 1) {
     for (size_t i = 0; i < count; ++i) {
-      more[i] = static_cast<uint8_t>((static_cast<uint64_t>(events[i].t) - base) >> time_bits);
+      more[i] = static_cast<uint8_t>((numbers[2 * i] - base) >> time_bits);
     }
   } else if (form == 2) {
     for (size_t i = 0; i < count; ++i) {
-      const uint64_t high = (static_cast<uint64_t>(events[i].t) - base) >> time_bits;
+      const uint64_t high = (numbers[2 * i] - base) >> time_bits;
       more[2 * i] = static_cast<uint8_t>(high);
       more[2 * i + 1] = static_cast<uint8_t>(high >> 8);
     }
