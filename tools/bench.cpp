@@ -67,6 +67,7 @@ void add_bench(CLI::App& program, Command& command) {
          "What the device does for a host with very many events: throughput with images back, kernel time "
          "and latency, beside what it can copy")
       ->excludes(stages)
+      ->excludes(wire)
       ->excludes(representation);
   const std::string reading = "Reading of recordings";
   CLI::Option* io = app->add_flag("--io", options->io,

@@ -1,19 +1,30 @@
 // scarf bench --wire: events on their way to a device.
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "bench/scenes.h"
 #include "bench/wire.h"
 #include "scarf/io.h"
 #include "tools/bench.h"
+#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
 
-void print_row(const std::string& stream, SensorSize sensor, std::span<const Event> events, int repeats) {
+nlohmann::json measure(const std::string& stream, SensorSize sensor, std::span<const Event> events,
+                       int repeats) {
   const bench::WireCost cost = bench::time_wire(events, sensor, repeats);
   std::printf("%-28s %5dx%-5d %10zu %8.3f %8.2f %8.2f %8.1f\n", stream.c_str(), sensor.width, sensor.height,
               events.size(), cost.bytes_per_event, cost.pack_ns, cost.copy_ns, sizeof(Event) / cost.pack_ns);
   std::fflush(stdout);
+  return {{"benchmark", "wire"},
+          {"stream", stream},
+          {"width", sensor.width},
+          {"height", sensor.height},
+          {"events", events.size()},
+          {"bytes_per_event", cost.bytes_per_event},
+          {"pack_ns_per_event", cost.pack_ns},
+          {"copy_ns_per_event", cost.copy_ns}};
 }
 
 Result<std::vector<Event>> events_of(EventSource& source) {
@@ -39,10 +50,11 @@ Result<int> bench_wire(const BenchOptions& options) {
       "bytes per event on the bus; ns per event of one core to pack, and to copy 16 bytes; GB/s packed\n");
   std::printf("%-28s %-11s %10s %8s %8s %8s %8s\n", "stream", "     sensor", "events", "bytes", "pack",
               "copy", "GB/s");
+  nlohmann::json results = nlohmann::json::array();
   for (const SensorSize sensor : {SensorSize{240, 180}, SensorSize{1280, 720}}) {
     for (const bench::Scene scene : bench::kScenes) {
-      print_row(std::string(bench::scene_name(scene)), sensor, bench::make_scene(scene, sensor, events),
-                repeats);
+      results.push_back(measure(std::string(bench::scene_name(scene)), sensor,
+                                bench::make_scene(scene, sensor, events), repeats));
     }
   }
   for (const std::string& path : options.recordings) {
@@ -53,7 +65,11 @@ Result<int> bench_wire(const BenchOptions& options) {
     const auto recorded = events_of(**source);
     if (!recorded) return recorded.error();
     if (recorded->empty()) continue;
-    print_row(path.substr(path.find_last_of('/') + 1), *sensor, *recorded, repeats);
+    results.push_back(measure(path.substr(path.find_last_of('/') + 1), *sensor, *recorded, repeats));
+  }
+  if (!options.json.empty()) {
+    const nlohmann::json report = {{"commit", SCARF_COMMIT}, {"results", results}};
+    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
   }
   return 0;
 }

@@ -79,6 +79,7 @@ WordFeed::~WordFeed() {
       !stream_->device_.transfer().wait(stream_->last_transfer_)) {
     stream_->device_.calls().DeviceWaitIdle(stream_->device_.handle());
   }
+  binding_.reset();  // under the lock: it is the pipeline's
 }
 
 Result<size_t> WordFeed::push(std::span<const uint8_t> bytes) {
