@@ -42,6 +42,7 @@ void main() {
     if (burst.mask != 0) facts = join_facts(facts, facts_of(burst, time_of(state)));
   }
   facts.unknown = unknown;
+  facts.gaps = gaps;
   DecodeFacts all;
   lane_places[linear_index()] = joined_before(facts, all).inside;
   if (gl_LocalInvocationID.x == 0) block_facts[linear_workgroup()] = all;

@@ -1,7 +1,7 @@
 // Joins what the host wants to know of events; see DecodeFacts.
 const int64_t kLargestTime = int64_t(0x7FFFFFFFFFFFFFFFul);
 
-DecodeFacts no_events() { return DecodeFacts(0, 0, 0, 0, 0, -1, -1, -1, -1, kLargestTime, -1); }
+DecodeFacts no_events() { return DecodeFacts(0, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1, kLargestTime, -1); }
 
 // First a, then b.
 DecodeFacts join_facts(DecodeFacts a, DecodeFacts b) {
@@ -10,6 +10,7 @@ DecodeFacts join_facts(DecodeFacts a, DecodeFacts b) {
   both.outside += b.outside;
   both.unknown += b.unknown;
   both.back_steps += b.back_steps;
+  both.gaps += b.gaps;
   both.largest_step = max(a.largest_step, b.largest_step);
   if (b.first >= 0) {
     if (a.first < 0) both.first = b.first;

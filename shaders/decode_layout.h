@@ -81,6 +81,8 @@ struct DecodeFacts {
   uint outside;
   uint unknown;     // words that the format does not define
   uint back_steps;  // events older than the event before them
+  uint gaps;        // EVT3: steps of TIME_HIGH to other than the next value
+  uint unused;
   int64_t largest_step;
   int64_t first;    // times of any events, in order of arrival; -1: no event
   int64_t last;

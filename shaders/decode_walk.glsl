@@ -30,8 +30,11 @@ int64_t time_of(DecodeState s) {
   return int64_t((high << low_bits | s.time_low) & 0x7FFFFFFFFFFFFFFFul);
 }
 
+uint gaps = 0;  // met so far
+
 void set_time_high(inout DecodeState s, uint high) {
   if (high == s.time_high) return;
+  if (kFormat == kDecodeEvt3 && ((high - s.time_high) & 0xFFF) != 1) ++gaps;
   add_loops(s, is_wrap(s.time_high, high));
   s.time_high = high;
   s.time_low = 0;

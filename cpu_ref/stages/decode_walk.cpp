@@ -11,7 +11,8 @@ namespace {
 using layout::DecodeFacts;
 using layout::DecodeState;
 
-constexpr DecodeFacts kNoEvents = {0, 0, 0, 0, 0, -1, -1, -1, -1, std::numeric_limits<int64_t>::max(), -1};
+constexpr DecodeFacts kNoEvents = {0, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1, std::numeric_limits<int64_t>::max(),
+                                   -1};
 
 // Walks one block of words from the state in front of it.
 class BlockWalk {
@@ -25,6 +26,8 @@ class BlockWalk {
     return evt2_ ? next_evt2(word, emit) : next_evt3(word, emit);
   }
 
+  uint32_t gaps() const { return gaps_; }
+
  private:
   int64_t time() const {
     const uint64_t loops = s_.loops_low | uint64_t{s_.loops_high} << 32;
@@ -37,6 +40,7 @@ class BlockWalk {
   }
   void set_time_high(uint32_t high) {
     if (high == s_.time_high) return;
+    if (!evt2_ && ((high - s_.time_high) & 0xFFF) != 1) ++gaps_;
     const uint32_t half_range = evt2_ ? 1u << 27 : 1u << 11;
     if (high < s_.time_high && s_.time_high - high >= half_range && ++s_.loops_low == 0) ++s_.loops_high;
     s_.time_high = high;
@@ -114,6 +118,7 @@ class BlockWalk {
 
   bool evt2_;
   DecodeState s_;
+  uint32_t gaps_ = 0;
   uint32_t skip_;
 };
 
@@ -136,15 +141,17 @@ void note(DecodeFacts& facts, const Event& e, bool inside) {
   facts.largest = std::max(facts.largest, e.t);
 }
 
-// Calls begin_lane(lane) in front of each run, word(unknown) behind each word and event(e) for each event.
+// Returns the gaps of the clock. Calls begin_lane(lane) in front of each run, word(unknown) behind each word
+// and event(e) for each event.
 template <class BeginLane, class OnWord, class OnEvent>
-void walk_block(const DecodeInput& input, uint32_t block, BlockWalk walk, BeginLane begin_lane,
-                OnWord on_word, OnEvent on_event) {
+uint32_t walk_block(const DecodeInput& input, uint32_t block, BlockWalk walk, BeginLane begin_lane,
+                    OnWord on_word, OnEvent on_event) {
   for (uint32_t k = 0; k < layout::kDecodeBlock; ++k) {
     const uint32_t i = block * layout::kDecodeBlock + k;
     if (k % layout::kDecodeRun == 0) begin_lane(i / layout::kDecodeRun);
     if (i < input.push.words) on_word(walk.next(input.words[i], on_event));
   }
+  return walk.gaps();
 }
 
 BlockWalk walk_of(const DecodeInput& input, uint32_t block, std::span<const uint32_t> block_skips,
@@ -160,7 +167,7 @@ void decode_count(const DecodeInput& input, std::span<const uint32_t> block_skip
                   std::span<DecodeFacts> block_facts) {
   for (uint32_t block = 0; block < input.push.blocks; ++block) {
     DecodeFacts facts = kNoEvents;
-    walk_block(
+    facts.gaps = walk_block(
         input, block, walk_of(input, block, block_skips, block_states),
         [&](uint32_t lane) { lane_places[lane] = facts.inside; },
         [&](bool unknown) { facts.unknown += unknown ? 1 : 0; },
@@ -178,6 +185,7 @@ void decode_total(std::span<const DecodeFacts> block_facts, std::span<uint32_t> 
     all.inside += b.inside;
     all.outside += b.outside;
     all.unknown += b.unknown;
+    all.gaps += b.gaps;
     const bool falls = b.first >= 0 && b.first < all.last;
     all.back_steps += b.back_steps + (falls ? 1 : 0);
     all.largest_step = std::max({all.largest_step, b.largest_step, falls ? all.last - b.first : 0});

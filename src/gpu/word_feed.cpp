@@ -110,6 +110,9 @@ size_t WordFeed::begin(std::span<const uint8_t> bytes) {
     if (rest_.size() < word_bytes_) continue;
     started_ = rest_.back() >> 4 == kTimeHigh;  // little-endian: the type is in the last byte
     if (!started_) rest_.clear();
+    // The device takes the first TIME_HIGH for a step from 0.
+    gap_at_begin_ =
+        started_ && words_ == CameraWords::evt3 && (load_little_endian<uint16_t>(rest_.data()) & 0xFFF) > 1;
   }
   return taken;
 }
@@ -273,6 +276,7 @@ Result<void> WordFeed::read_result(Slot& slot) {
   report_.events += facts.inside;
   report_.outside += facts.outside;
   report_.unknown_words += facts.unknown;
+  report_.gaps += facts.gaps;
   report_.back_steps += facts.back_steps;
   report_.largest_back_step = std::max(report_.largest_back_step, facts.largest_step);
   if (facts.first >= 0) {
@@ -352,6 +356,7 @@ Result<ReadReport> WordFeed::report() {
   if (auto r = settle_all(); !r) return r.error();
   ReadReport report = report_;
   report.truncated_bytes = gathered();
+  report.gaps -= gap_at_begin_ ? 1 : 0;
   return report;
 }
 

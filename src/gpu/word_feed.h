@@ -76,9 +76,10 @@ class WordFeed final : public GpuDecoder {
   std::unique_ptr<EventBinding> binding_;  // of the decoded events
   std::vector<Slot> slots_;
   uint64_t bytes_ = 0;
-  bool clear_ = false;    // the decoder's state has been initialised
-  bool started_ = false;  // the first TIME_HIGH was met
-  bool is_open_ = false;  // slot open_ gathers
+  bool clear_ = false;         // the decoder's state has been initialised
+  bool started_ = false;       // the first TIME_HIGH was met
+  bool gap_at_begin_ = false;  // counted there, and none
+  bool is_open_ = false;       // slot open_ gathers
   size_t open_ = 0;
   size_t fill_ = 0;                // bytes in the open slot
   std::vector<uint8_t> rest_;      // bytes that come before those of the next slot
