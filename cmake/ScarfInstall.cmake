@@ -32,13 +32,13 @@ function(scarf_component target)
   install(FILES ${ARG_HEADERS} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/scarf")
 endfunction()
 
-scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.h parameters.h pending.h representation.h result.h scarf.h)
+scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.h parameters.h pending.h read_report.h representation.h result.h scarf.h)
 scarf_component(scarf_vulkan)
-scarf_component(scarf_gpu HEADERS gpu.h gpu_encoding.h)
+scarf_component(scarf_gpu HEADERS gpu.h gpu_decoding.h gpu_encoding.h)
 scarf_component(scarf_cpu_ref HEADERS reference.h)
 scarf_component(scarf_simulate HEADERS simulate.h)
 # Sets of their own: only who asks for these components needs their libraries.
-scarf_component(scarf_io EXPORT scarfIoTargets HEADERS frames.h io.h)
+scarf_component(scarf_io EXPORT scarfIoTargets HEADERS frames.h io.h word_source.h)
 scarf_component(scarf_digest EXPORT scarfDigestTargets HEADERS digest.h)
 
 file(GLOB headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include/scarf" "${PROJECT_SOURCE_DIR}/include/scarf/*.h")

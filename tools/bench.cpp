@@ -16,6 +16,7 @@ Result<int> bench(const BenchOptions& options) {
                "this is a debug build, whose times mean nothing; build with the release preset"};
 #endif
   if (options.io) return bench_io(options);
+  if (options.wire) return bench_wire(options);
   if (options.paper) return bench_paper(options);
   return options.offload ? bench_offload(options) : bench_scenes(options);
 }
@@ -45,6 +46,13 @@ void add_bench(CLI::App& program, Command& command) {
   auto options = std::make_shared<BenchOptions>();
   app->add_flag("--quick", options->quick, "Fewer events and repeats");
   CLI::Option* stages = app->add_flag("--stages", options->stages, "Device time of each stage");
+  CLI::Option* wire =
+      app->add_flag(
+             "--wire", options->wire,
+             "Bytes per event on the way to a device that has memory of its own, and the cost of packing")
+          ->excludes(stages);
+  app->add_option("--recordings", options->recordings, "Recordings to measure besides the scenes")
+      ->needs(wire);
   app->add_option("--json", options->json, "Write the results to this file as well");
   std::vector<std::string> names;
   for (const RepresentationInfo& info : representations()) names.push_back(info.name);
@@ -59,6 +67,7 @@ void add_bench(CLI::App& program, Command& command) {
          "What the device does for a host with very many events: throughput with images back, kernel time "
          "and latency, beside what it can copy")
       ->excludes(stages)
+      ->excludes(wire)
       ->excludes(representation);
   const std::string reading = "Reading of recordings";
   CLI::Option* io = app->add_flag("--io", options->io,
@@ -75,6 +84,7 @@ void add_bench(CLI::App& program, Command& command) {
                                      "Time per event and per query of every representation, and throughput "
                                      "against query rate, beside the paper's figures")
                            ->excludes(stages)
+                           ->excludes(wire)
                            ->group(costs);
   app->add_option("--file", options->file, "Events of this recording; else of a simulated shaking camera")
       ->needs(paper)

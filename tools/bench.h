@@ -20,6 +20,8 @@ struct BenchOptions {
   bool paper = false;
   bool offload = false;
   bool io = false;
+  bool wire = false;
+  std::vector<std::string> recordings;            ///< with `wire`
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
@@ -41,5 +43,7 @@ Result<int> bench_offload(const BenchOptions& options);
 Result<int> bench_io(const BenchOptions& options);
 /// The paper's cost table and figure for every representation. Returns the exit code.
 Result<int> bench_paper(const BenchOptions& options);
+/// Size and cost of the events that are uploaded. Returns the exit code.
+Result<int> bench_wire(const BenchOptions& options);
 
 }  // namespace scarf::tools

@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "scarf/reference.h"
 #include "tools/commands.h"
+#include "tools/device_words.h"
 #include "tools/frame_writer.h"
 #include "tools/memory.h"
 #include "tools/options.h"
@@ -34,6 +35,7 @@ struct RenderOptions {
   bool floats = false;
   std::string encoding;  // words, see parse_encoding; empty: pictures
   std::string sparse;    // file for the sparse events of each frame
+  bool decode_on_device = false;
 };
 
 std::string encoding_names() {
@@ -52,6 +54,11 @@ Result<void> check(const RenderOptions& options, OutputKind kind) {
     return illegal(text(options.output,
                         " is one image, which shows the end; leave out --rate, --every and "
                         "--at-times, or give a folder or a video"));
+  }
+  if (kind != OutputKind::image && options.decode_on_device) {
+    return illegal(
+        "--decode device leaves the times of events on the device, so only the end can be shown; give a .png "
+        "or a .pgm, or leave it out");
   }
   if (kind == OutputKind::video && !options.at.empty()) {
     return illegal("--at end is one picture; give a .png, a .pgm or a folder instead of a video");
@@ -148,6 +155,29 @@ Result<std::vector<std::unique_ptr<FrameProduct>>> make_products(const RenderOpt
   return products;
 }
 
+// The end of a recording whose words the device decodes. Returns the number of events.
+Result<uint64_t> render_words(const RenderOptions& options, const std::vector<Shown>& shown,
+                              const TakeFrame& ask) {
+  std::vector<Representation*> all;
+  for (const Shown& s : shown) all.push_back(s.representation.get());
+  auto words = DeviceWords::open(options.stream, all);
+  if (!words) return words.error();
+  BatchSizes batches = options.stream.batches;
+  for (;;) {
+    const auto pushed = words->push(2 * batches.next());
+    if (!pushed) return pushed.error();
+    if (*pushed == 0) break;
+  }
+  const auto report = words->report();
+  if (!report) return report.error();
+  const auto newest = words->newest();
+  if (!newest) return newest.error();
+  if (*newest) {
+    if (auto r = ask({.t = **newest, .events = report->events}); !r) return r.error();
+  }
+  return report->events;
+}
+
 Result<int> render(const RenderOptions& options) {
   const auto kind = output_kind(options.output);
   if (!kind) return kind.error();
@@ -182,8 +212,10 @@ Result<int> render(const RenderOptions& options) {
       return {};
     };
     const auto played =
-        play(*recording->source, {.batches = options.stream.batches, .instants = instants->get()},
-             {.events = push, .frame = ask});
+        options.decode_on_device
+            ? render_words(options, choice->shown, ask)
+            : play(*recording->source, {.batches = options.stream.batches, .instants = instants->get()},
+                   {.events = push, .frame = ask});
     if (!played) return played.error();
     for (const auto& product : *products) {
       if (auto r = product->finish(); !r) return r.error();
@@ -206,6 +238,7 @@ void add_render(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("render", "Pictures of a recording");
   auto options = std::make_shared<RenderOptions>();
   add_stream_options(*app, options->stream, {kAllRepresentations});
+  add_decode_option(*app, options->decode_on_device);
   app->add_option(
          "-o,--output", options->output,
          "A folder of PNG frames, a video (.mp4, .avi), an array of frames (.npy, .h5), or one image of the "

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "tools/commands.h"
+#include "tools/device_words.h"
 #include "tools/lockstep.h"
 #include "tools/options.h"
 
@@ -14,6 +15,7 @@ struct VerifyOptions {
   StreamOptions stream;
   std::optional<uint64_t> max_events;
   std::string failing;  ///< where the failing prefix goes
+  bool decode_on_device = false;
 };
 
 // None where every bit must be the same.
@@ -28,6 +30,69 @@ std::unique_ptr<Tolerance> tolerance_of(const StreamOptions& options, SensorSize
 std::string subject(const StreamOptions& options, Representation& r) {
   if (const auto* scarf = dynamic_cast<Scarf*>(&r)) return text(scarf->geometry().patches(), " patches");
   return text(options.representation, " on ", r.sensor().width, "x", r.sensor().height);
+}
+
+std::string identical(const Lockstep& run, const StreamOptions& options, Representation& reference,
+                      const std::string& device, const Tolerance* tolerance) {
+  return text(tolerance ? "within the bound: " : "identical: ", run.events, " events, ", run.batches,
+              " batches, ", subject(options, reference), ", device ", device,
+              tolerance ? text("; ", tolerance->report()) : "", "\n");
+}
+
+// The reference gets the events that a reader makes of the bytes that the device got.
+Result<std::optional<std::string>> push_and_compare(EventSource& source, const ReadReport& on_device,
+                                                    Lockstep& run, Representation& a, Representation& b,
+                                                    const SideNames& names, Tolerance* tolerance) {
+  std::vector<Event> events(on_device.events - run.events);
+  size_t filled = 0;
+  while (filled < events.size()) {
+    const auto n = source.read(std::span(events).subspan(filled));
+    if (!n) return n.error();
+    if (*n == 0)
+      return std::optional(text("the device decoded more events than the reader's ", run.events + filled));
+    filled += *n;
+  }
+  if (const auto pushed = a.push(events); !pushed) return pushed.error();
+  run.events += events.size();
+  run.batches += 1;
+  return first_difference(a, b, names, tolerance);
+}
+
+Result<int> verify_decoding(const VerifyOptions& options, EventSource& source, Representation& a,
+                            Representation& b, const SideNames& names, Tolerance* tolerance) {
+  if (options.max_events) {
+    return Error{ErrorCode::illegal_parameter,
+                 "--max-events is not offered with --decode device, which reads whole words; leave it out"};
+  }
+  Representation* const to[] = {&b};
+  auto words = DeviceWords::open(options.stream, to);
+  if (!words) return words.error();
+  BatchSizes batches = options.stream.batches;
+  Lockstep run;
+  while (!run.difference) {
+    const auto pushed = words->push(2 * batches.next());
+    if (!pushed) return pushed.error();
+    const auto report = words->report();
+    if (!report) return report.error();
+    if (*pushed == 0) {
+      Event more;
+      const auto left = source.read(std::span(&more, 1));
+      if (!left) return left.error();
+      if (*left != 0 || source.report() != *report)
+        run.difference = text("the reader's report differs from the device's after ", run.events, " events");
+      break;
+    }
+    auto difference = push_and_compare(source, *report, run, a, b, names, tolerance);
+    if (!difference) return difference.error();
+    run.difference = *std::move(difference);
+  }
+  if (!run.difference) {
+    std::cout << identical(run, options.stream, a, names.b, tolerance);
+    return 0;
+  }
+  std::cout << text("different after ", run.events, " events, ", run.batches, " batches: ", *run.difference,
+                    "\n");
+  return 1;
 }
 
 Result<int> verify(const VerifyOptions& options) {
@@ -49,12 +114,12 @@ Result<int> verify(const VerifyOptions& options) {
   if (options.max_events) play_options.max_events = *options.max_events;
   const auto make_tolerance = [&] { return tolerance_of(options.stream, recording->sensor); };
   const auto tolerance = make_tolerance();
+  if (options.decode_on_device)
+    return verify_decoding(options, *recording->source, a, b, names, tolerance.get());
   auto run = run_in_lockstep(*recording->source, play_options, a, b, names, tolerance.get());
   if (!run) return run.error();
   if (!run->difference) {
-    std::cout << text(tolerance ? "within the bound: " : "identical: ", run->events, " events, ",
-                      run->batches, " batches, ", subject(options.stream, a), ", device ", device->name,
-                      tolerance ? text("; ", tolerance->report()) : "", "\n");
+    std::cout << identical(*run, options.stream, a, device->name, tolerance.get());
     return 0;
   }
   if (options.stream.file == "-") {
@@ -81,6 +146,7 @@ void add_verify(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("verify", "Compare a device with the CPU reference, batch by batch");
   auto options = std::make_shared<VerifyOptions>();
   add_stream_options(*app, options->stream);
+  add_decode_option(*app, options->decode_on_device);
   add_parsed_option(*app, "--max-events", options->max_events, parse_whole<uint64_t>,
                     "Stop after so many events");
   app->add_option("--failing", options->failing,

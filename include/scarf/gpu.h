@@ -38,8 +38,8 @@ struct DeviceOptions {
   /// SCARF_REQUIRE_GPU.
   bool require_gpu = false;
   /// How events reach the device. automatic: shaders read the staging memory itself where that is device
-  /// memory which the host also reads fast; elsewhere events are copied, by a transfer queue if there is one.
-  /// The others force a path, so that each can be tested on any device.
+  /// memory which the host also reads fast; elsewhere events are packed and copied, by a transfer queue if
+  /// there is one. The others force a path, so that each can be tested on any device.
   enum class Upload { automatic, staged, transfer_queue } upload = Upload::automatic;
   /// Khronos validation layers on; every message is collected by GpuContext::validation_messages().
   bool validation = false;

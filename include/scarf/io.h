@@ -10,30 +10,10 @@
 #include <vector>
 
 #include "scarf/event.h"
+#include "scarf/read_report.h"
 #include "scarf/result.h"
 
 namespace scarf {
-
-/// Where a recording is broken.
-struct Damage {
-  uint64_t byte = 0;  ///< of the file; in compressed files, of the packet or chunk that is broken
-  std::string what;
-};
-
-/// What a reader met so far.
-struct ReadReport {
-  uint64_t events = 0;            ///< events handed out
-  uint64_t outside = 0;           ///< events outside the sensor (or beyond uint16_t): counted and dropped
-  uint64_t back_steps = 0;        ///< events (outside ones included) older than the event before them;
-                                  ///< with TimePolicy clamp and drop: than the newest one so far
-  int64_t largest_back_step = 0;  ///< microseconds
-  uint64_t dropped = 0;           ///< events left out by TimePolicy::drop
-  uint64_t gaps = 0;              ///< places where the file shows that data is missing
-  uint64_t unknown_words = 0;     ///< words or lines that the format does not define
-  uint64_t truncated_bytes = 0;   ///< bytes at the end that do not make a whole word, line or packet
-  uint64_t damages = 0;           ///< broken places that reading went around
-  std::optional<Damage> damage;   ///< the first of them
-};
 
 /// What becomes of an event that is older than one before it. Every policy counts them.
 enum class TimePolicy {

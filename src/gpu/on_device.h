@@ -22,9 +22,16 @@ struct Feed {
                              std::span<const FilterParameters> filters);
 };
 
+/// What is fed through a Stream.
+class StreamFed {
+ public:
+  virtual ~StreamFed() = default;
+  virtual std::shared_ptr<Stream> stream() const = 0;
+};
+
 /// Implements all of GpuRepresentation but its own queries, for an Interface derived from it.
 template <class Interface>
-class OnDevice : public Interface {
+class OnDevice : public Interface, public StreamFed {
  public:
   explicit OnDevice(Feed feed) : stream_(std::move(feed.stream)), filtered_(feed.filtered) {}
 
@@ -37,6 +44,7 @@ class OnDevice : public Interface {
   Result<void> finish() override { return stream_->finish(); }
   std::vector<StageTime> stage_times() const override { return stream_->stage_times(); }
   uint64_t memory_bytes() const override { return stream_->memory_bytes(); }
+  std::shared_ptr<Stream> stream() const override { return stream_; }
   Pending<std::vector<FilterReport>> filter_reports() override {
     using Reports = std::vector<FilterReport>;
     if (filtered_ == nullptr) return Reports();

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "gpu/staging.h"
 #include "vulkan/buffer.h"
 #include "vulkan/kernel.h"
 
@@ -29,6 +30,11 @@ class PipelineBuilder {
     });
     if (result_) std::memcpy(target.mapped(), content.data(), content.size_bytes());
     bytes_ += target.size();
+  }
+  /// Memory that the host writes and shaders read.
+  void staged(StagedBuffer& target, const char* host_name, const char* device_name, uint64_t bytes) {
+    make(target, [&] { return StagedBuffer::create(device_, host_name, device_name, bytes); });
+    bytes_ += target.memory_bytes();
   }
   /// Memory that shaders write and the host reads.
   void readback(vulkan::Buffer& target, const char* name, uint64_t bytes) {

@@ -6,6 +6,7 @@
 #include "core/batch_check.h"
 #include "core/text.h"
 #include "gpu/submission.h"
+#include "gpu/word_feed.h"
 
 namespace scarf {
 
@@ -88,6 +89,9 @@ Result<void> Stream::start() {
 Result<PushReport> Stream::push(std::span<const Event> events) {
   std::lock_guard lock(mutex_);
   if (auto r = ready_to_push(); !r) return r.error();
+  if (words_ != nullptr) {
+    if (auto r = words_->settle_all(); !r) return r.error();
+  }
   auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
   const StreamFacts before = facts_;
@@ -105,8 +109,7 @@ Result<PushReport> Stream::push(std::span<const Event> events) {
     if (!slot) return fail(slot.error());
     StagingSlot& s = **slot;
     const size_t n = std::min<size_t>(events.size() - accepted, room(s));
-    std::memcpy(s.host.mapped_as<Event>() + s.fill, events.data() + accepted, n * sizeof(Event));
-    s.fill += static_cast<uint32_t>(n);
+    append(s, events.subspan(accepted, n));
     accepted += n;
     if (room(s) == 0) {
       if (auto r = submit_open(); !r) return fail(r.error());
@@ -122,10 +125,13 @@ Result<std::span<Event>> Stream::acquire(size_t n) {
     return Error{ErrorCode::illegal_parameter,
                  text("acquire of ", n, " events, legal is 0 to ", max_acquire())};
   }
+  if (words_ != nullptr) {
+    if (auto r = words_->settle_all(); !r) return r.error();
+  }
   const auto slot = open_slot(std::max<size_t>(n, 1));
   if (!slot) return slot.error().code == ErrorCode::would_block ? slot.error() : fail(slot.error());
   acquired_ = n;
-  return std::span((*slot)->host.mapped_as<Event>() + (*slot)->fill, n);
+  return std::span(lend(**slot, n), n);
 }
 
 Result<PushReport> Stream::commit(size_t count) {
@@ -137,11 +143,11 @@ Result<PushReport> Stream::commit(size_t count) {
   }
   acquired_.reset();
   StagingSlot& s = staging_[open_];
-  const std::span<const Event> events(s.host.mapped_as<Event>() + s.fill, count);
+  const std::span<const Event> events(lend(s, 0), count);
   const auto batch = check_batch(events, sensor(), facts_.first);
   if (!batch) return batch.error();
   facts_ = with(facts_, *batch);
-  s.fill += static_cast<uint32_t>(count);
+  append(s, events);
   if (room(s) == 0) {
     if (auto r = submit_open(); !r) return fail(r.error());
   }
@@ -151,13 +157,13 @@ Result<PushReport> Stream::commit(size_t count) {
 Result<void> Stream::flush() {
   std::lock_guard lock(mutex_);
   if (auto r = usable(); !r) return r;
-  return submit_open();
+  return submit_gathered();
 }
 
 Result<void> Stream::finish() {
   std::unique_lock lock(mutex_);
   if (auto r = usable(); !r) return r;
-  if (auto r = submit_open(); !r) return r;
+  if (auto r = submit_gathered(); !r) return r;
   const uint64_t last = last_submission_;
   lock.unlock();
   return device_.compute().wait(last);
@@ -165,6 +171,9 @@ Result<void> Stream::finish() {
 
 Result<void> Stream::reset() {
   std::lock_guard lock(mutex_);
+  if (words_ != nullptr) {
+    if (auto r = words_->discard_all(); !r) return r;
+  }
   auto commands = take_commands();
   if (!commands) return commands.error();
   Commands& c = (*commands)->compute;
@@ -179,6 +188,7 @@ Result<void> Stream::reset() {
   // Events gathered so far belong to the old stream.
   StagingSlot& open = staging_[open_];
   open.begin = open.fill;
+  if (packed()) open.packer.end_part();
   facts_ = {};
   failure_.reset();
   return {};
@@ -202,8 +212,9 @@ std::vector<StageTime> Stream::stage_times() {
 
 uint64_t Stream::memory_bytes() {
   std::lock_guard lock(mutex_);
-  uint64_t bytes = pipeline_->memory_bytes() + query_bytes_;
-  for (const StagingSlot& s : staging_) bytes += s.host.size() + s.device.size();
+  uint64_t bytes = pipeline_->memory_bytes() + query_bytes_ + unpacker_.memory_bytes();
+  for (const StagingSlot& s : staging_) bytes += s.memory.memory_bytes();
+  if (words_ != nullptr) bytes += words_->memory_bytes();
   return bytes;
 }
 
@@ -223,30 +234,59 @@ Result<void> Stream::ready_to_push() const {
                "staging memory is acquired: commit it before the next push or acquire"};
 }
 
-// Shaders read host memory where that is device memory too; elsewhere events are copied, by the transfer
-// queue if the device has one.
-DeviceOptions::Upload Stream::upload_path(const Buffer& host) const {
-  const Upload wish = device_.options().upload;
-  if (wish != Upload::automatic || host.device_local()) return wish;
-  return device_.compute().family() == device_.transfer().family() ? Upload::staged : Upload::transfer_queue;
+Result<Stream::StagingSlot> Stream::make_slot() {
+  StagingSlot s;
+  // How large it is depends on where it is, which a small buffer tells.
+  if (staging_.empty()) {
+    const auto probe = Buffer::create(device_, "the staging memory", 1, MemoryUse::upload);
+    if (!probe) return probe.error();
+    upload_ = upload_path(device_, *probe);
+  }
+  const auto most_events = static_cast<uint32_t>(max_acquire());
+  const uint64_t bytes =
+      packed() ? EventPacker::memory_words(most_events) * sizeof(uint32_t) : most_events * sizeof(Event);
+  auto memory = StagedBuffer::create(device_, "the staging memory", "the event memory", bytes);
+  if (!memory) return memory.error();
+  s.memory = std::move(*memory);
+  if (!packed()) {
+    auto binding = pipeline_->bind_events(s.memory.for_shaders());
+    if (!binding) return binding.error();
+    s.binding = std::move(*binding);
+    return s;
+  }
+  s.packer = EventPacker(sensor(), s.memory.host.mapped_as<uint32_t>(), most_events);
+  PipelineBuilder builder(device_);
+  if (staging_.empty()) unpacker_.build(builder, most_events);
+  unpacker_.bind(builder, s.unpack, s.memory.for_shaders());
+  if (!builder.result()) return builder.result().error();
+  if (staging_.empty()) {
+    auto binding = pipeline_->bind_events(unpacker_.events());
+    if (!binding) return binding.error();
+    unpacked_binding_ = std::move(*binding);
+  }
+  return s;
 }
 
-Result<Stream::StagingSlot> Stream::make_slot() {
-  const uint64_t bytes = max_acquire() * sizeof(Event);
-  StagingSlot s;
-  auto host = Buffer::create(device_, "the staging memory", bytes, MemoryUse::upload);
-  if (!host) return host.error();
-  s.host = std::move(*host);
-  upload_ = upload_path(s.host);
-  if (upload_ != Upload::automatic) {
-    auto device = Buffer::create(device_, "the event memory", bytes, MemoryUse::device);
-    if (!device) return device.error();
-    s.device = std::move(*device);
-  }
-  auto binding = pipeline_->bind_events(upload_ == Upload::automatic ? s.host : s.device);
-  if (!binding) return binding.error();
-  s.binding = std::move(*binding);
-  return s;
+// At most room(s) events.
+void Stream::append(StagingSlot& s, std::span<const Event> events) {
+  Event* const place = s.memory.host.mapped_as<Event>() + s.fill;
+  if (packed())
+    s.packer.append(events);
+  else if (events.data() != place)  // events of acquire are there already
+    std::memcpy(place, events.data(), events.size_bytes());
+  s.fill += static_cast<uint32_t>(events.size());
+}
+
+// Memory for n events behind those gathered; with fewer it is the same again.
+Event* Stream::lend(StagingSlot& s, size_t n) {
+  if (!packed()) return s.memory.host.mapped_as<Event>() + s.fill;
+  if (lent_.size() < n) lent_.resize(n);
+  return lent_.data();
+}
+
+void Stream::empty(StagingSlot& s) {
+  s.begin = s.fill = 0;
+  if (packed()) s.packer.restart();
 }
 
 // The slot that gathers events, with room for n.
@@ -263,9 +303,13 @@ Result<Stream::StagingSlot*> Stream::open_slot(size_t n) {
     }
     if (auto r = device_.compute().wait(s.last_use); !r) return r.error();
     open_ = next;
-    s.begin = s.fill = 0;
+    empty(s);
   }
   return &staging_[open_];
+}
+
+Result<void> Stream::submit_gathered() {
+  return words_ != nullptr && words_->holds_words() ? words_->settle_all() : submit_open();
 }
 
 // Submits the gathered events, if there are any. If that fails they stay where they are.
@@ -281,33 +325,60 @@ Result<void> Stream::submit_open() {
   if (!submitted) return submitted;
   s.last_use = last_submission_;
   s.begin = s.fill;
+  if (packed()) s.packer.end_part();
   if (!acquired_) advance();
   return {};
 }
 
-Result<void> Stream::submit_push(PushCommands& commands, const StagingSlot& s) {
-  Commands& c = commands.compute;
-  const vulkan::Queue* wait_queue = nullptr;
-  uint64_t wait_value = 0;
-  const uint64_t offset = s.begin * sizeof(Event);
-  const uint64_t bytes = (s.fill - s.begin) * sizeof(Event);
+Result<void> Stream::submit_push(PushCommands& commands, StagingSlot& s) {
+  if (packed()) return submit_packed(commands, s);
+  if (auto r = begin_with_upload(commands, s.memory, {}); !r) return r;
+  pipeline_->record_push(commands.compute, *s.binding, s.begin, s.fill - s.begin, facts_);
+  return submit(commands);
+}
+
+Result<void> Stream::submit_packed(PushCommands& commands, StagingSlot& s) {
+  const EventPacker::Part part = s.packer.part();
+  const auto range = [](size_t begin, size_t words) {
+    return Range{begin * sizeof(uint32_t), words * sizeof(uint32_t)};
+  };
+  if (auto r = begin_with_upload(
+          commands, s.memory,
+          {range(part.table_begin, part.table_words), range(part.data_begin, part.data_words)});
+      !r) {
+    return r;
+  }
+  unpacker_.record(commands.compute, s.unpack, part.push);
+  pipeline_->record_push(commands.compute, *unpacked_binding_, 0, s.fill - s.begin, facts_);
+  return submit(commands);
+}
+
+// Begins `commands`: shaders in what is recorded behind may read the bytes.
+Result<void> Stream::begin_with_upload(PushCommands& commands, const StagedBuffer& memory,
+                                       std::initializer_list<Range> ranges) {
+  const auto copy = [&](Commands& c) {
+    for (const Range& r : ranges) c.copy(memory.host, r.offset, memory.device, r.offset, r.bytes);
+  };
+  commands.transferred = 0;
   if (upload_ == Upload::transfer_queue) {
     Commands& t = commands.transfer;
     if (auto r = t.wait(); !r) return r;
     if (auto r = t.begin(); !r) return r;
-    t.copy(s.host, offset, s.device, offset, bytes);
+    copy(t);
     if (auto r = t.submit(); !r) return r;
-    wait_queue = &device_.transfer();
-    wait_value = last_transfer_ = t.value();
+    commands.transferred = last_transfer_ = t.value();
   }
-  if (auto r = c.begin(); !r) return r;
+  if (auto r = commands.compute.begin(); !r) return r;
   if (upload_ == Upload::staged) {
-    c.copy(s.host, offset, s.device, offset, bytes);
-    c.barrier();
-    c.mark("upload");
+    copy(commands.compute);
+    commands.compute.barrier();
+    commands.compute.mark("upload");
   }
-  pipeline_->record_push(c, *s.binding, s.begin, s.fill - s.begin, facts_);
-  return submit(c, wait_queue, wait_value);
+  return {};
+}
+
+Result<void> Stream::submit(PushCommands& commands) {
+  return submit(commands.compute, commands.transferred);
 }
 
 // Moves on to the next slot if that is free, so that the next batch does not have to fit into what is left
@@ -317,7 +388,7 @@ void Stream::advance() {
   const auto done = device_.compute().done(staging_[next].last_use);
   if (!done || !*done) return;
   open_ = next;
-  staging_[next].begin = staging_[next].fill = 0;
+  empty(staging_[next]);
 }
 
 Result<std::unique_ptr<Stream::PushCommands>> Stream::take_commands() {
@@ -365,8 +436,10 @@ Result<void> Stream::copy_back(Query& query, std::span<const Part> parts) {
   return {};
 }
 
-Result<void> Stream::submit(Commands& c, const vulkan::Queue* wait_queue, uint64_t wait_value) {
-  if (auto r = c.submit(wait_queue, wait_value); !r) return r;
+// `transferred`: the place in the transfer queue's timeline to wait for; 0: none.
+Result<void> Stream::submit(Commands& c, uint64_t transferred) {
+  const vulkan::Queue* const wait_queue = transferred == 0 ? nullptr : &device_.transfer();
+  if (auto r = c.submit(wait_queue, transferred); !r) return r;
   last_submission_ = c.value();
   return {};
 }
@@ -400,7 +473,7 @@ Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_s
 
   std::lock_guard lock(mutex_);
   if (auto r = usable(); !r) return r.error();
-  if (auto r = submit_open(); !r) return r.error();
+  if (auto r = submit_gathered(); !r) return r.error();
   auto taken = take_query(kind);
   if (!taken) return taken.error();
   Query& q = **taken;

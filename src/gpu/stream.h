@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,7 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "core/event_packer.h"
+#include "gpu/event_unpacker.h"
 #include "gpu/pipeline.h"
+#include "gpu/staging.h"
 #include "scarf/gpu.h"
 #include "vulkan/commands.h"
 #include "vulkan/device.h"
@@ -37,6 +41,8 @@ struct Query {
 /// Queries of one kind need similar memory.
 enum class QueryKind { image, events, state };
 inline constexpr size_t kQueryKinds = 3;
+
+class WordFeed;
 
 /// Everything of a stream. Pending results share it, so that they may outlive the Representation.
 class Stream : public std::enable_shared_from_this<Stream> {
@@ -69,14 +75,16 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Pending<T> query(QueryKind kind, const Record<T>& record, bool changes_state = false);
 
  private:
+  friend class WordFeed;  // the other way into a stream: words instead of events
   using Upload = DeviceOptions::Upload;
 
   // Staging memory. Events begin .. fill-1 are pushed but not yet submitted, those before are in flight or
-  // done.
+  // done. Where shaders read it themselves it holds events as they are; what is copied is packed.
   struct StagingSlot {
-    vulkan::Buffer host;
-    vulkan::Buffer device;  // copy of `host`, where shaders do not read host memory
-    std::unique_ptr<EventBinding> binding;
+    StagedBuffer memory;
+    std::unique_ptr<EventBinding> binding;  // of events as they are
+    EventPacker packer;
+    vulkan::BoundKernel unpack;
     uint32_t begin = 0;
     uint32_t fill = 0;
     uint64_t last_use = 0;  // place in the compute timeline
@@ -85,6 +93,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   struct PushCommands {
     vulkan::Commands compute;
     vulkan::Commands transfer;  // only with Upload::transfer_queue
+    uint64_t transferred = 0;   // place of the upload in the transfer queue's timeline; 0: there is none
   };
 
   // Objects that are either idle (perhaps still in flight on the device) or lent out.
@@ -112,19 +121,31 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Result<void> usable() const;
   Result<void> ready_to_push() const;
 
-  Upload upload_path(const vulkan::Buffer& host) const;
   Result<StagingSlot> make_slot();
-  size_t room(const StagingSlot& s) const { return max_acquire() - s.fill; }
+  bool packed() const { return upload_ != Upload::automatic; }
+  size_t room(const StagingSlot& s) const { return packed() ? s.packer.room() : max_acquire() - s.fill; }
+  void append(StagingSlot& s, std::span<const Event> events);
+  Event* lend(StagingSlot& s, size_t n);
   Result<StagingSlot*> open_slot(size_t n);
+  Result<void> submit_gathered();
   Result<void> submit_open();
-  Result<void> submit_push(PushCommands& commands, const StagingSlot& s);
+  Result<void> submit_push(PushCommands& commands, StagingSlot& s);
+  Result<void> submit_packed(PushCommands& commands, StagingSlot& s);
+  void empty(StagingSlot& s);
   void advance();
 
   Result<std::unique_ptr<PushCommands>> take_commands();
+  // Bytes of staging memory.
+  struct Range {
+    uint64_t offset = 0;
+    uint64_t bytes = 0;
+  };
+  Result<void> begin_with_upload(PushCommands& commands, const StagedBuffer& memory,
+                                 std::initializer_list<Range> ranges);
+  Result<void> submit(PushCommands& commands);
   Result<std::unique_ptr<Query>> take_query(QueryKind kind);
   Result<void> copy_back(Query& query, std::span<const Part> parts);
-  Result<void> submit(vulkan::Commands& c, const vulkan::Queue* wait_queue = nullptr,
-                      uint64_t wait_value = 0);
+  Result<void> submit(vulkan::Commands& c, uint64_t transferred = 0);
   void collect(vulkan::Commands& c);
 
   std::shared_ptr<GpuContext> context_;  // first, so that the device outlives all that follows
@@ -132,10 +153,14 @@ class Stream : public std::enable_shared_from_this<Stream> {
   const GpuOptions options_;
   std::mutex mutex_;
   std::unique_ptr<Pipeline> pipeline_;
-  Upload upload_ = Upload::automatic;  // automatic: shaders read the staging memory itself
+  Upload upload_ = Upload::automatic;               // automatic: shaders read the staging memory itself
+  EventUnpacker unpacker_;                          // where events are packed; so are the next two
+  std::unique_ptr<EventBinding> unpacked_binding_;  // of its events
+  std::vector<Event> lent_;                         // what acquire hands out
   std::vector<StagingSlot> staging_;
   size_t open_ = 0;                 // the staging slot that gathers events
   std::optional<size_t> acquired_;  // events handed out by acquire, behind the gathered ones
+  WordFeed* words_ = nullptr;       // gathers words while no events are gathered, and the other way round
   StreamFacts facts_;               // of all events pushed
   std::optional<Error> failure_;
   uint64_t last_submission_ = 0;  // places in the timelines of the two queues

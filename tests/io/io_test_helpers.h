@@ -102,12 +102,6 @@ inline ByteReader dripping(const Bytes& bytes, size_t step) {
   return ByteReader(read_some, 0);
 }
 
-inline bool operator==(const ReadReport& a, const ReadReport& b) {
-  return a.events == b.events && a.outside == b.outside && a.back_steps == b.back_steps &&
-         a.largest_back_step == b.largest_back_step && a.unknown_words == b.unknown_words &&
-         a.truncated_bytes == b.truncated_bytes;
-}
-
 /// A file name of this test, removed at the end.
 class TemporaryFile {
  public:

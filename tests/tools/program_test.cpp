@@ -378,6 +378,28 @@ TEST_F(Program, VerifiesTheDevice) {
   EXPECT_EQ(run("digest " + file).out, run("digest --cpu " + file).out);
 }
 
+TEST_F(Program, DecodesCameraWordsOnTheDevice) {
+  const std::string text_file = recording();
+  for (const std::string format : {"evt2", "evt3"}) {
+    const std::string raw = path(format + ".raw");
+    ASSERT_EQ(run("simulate " + raw + " --format " + format + " --duration 0.05 --sensor 64x48").exit_code,
+              0);
+    const Outcome outcome = run("verify " + raw + " --batch 1000 --decode device");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_THAT(outcome.out, StartsWith("identical: "));
+    for (const std::string where : {"device", "cpu"}) {
+      EXPECT_EQ(run("render " + raw + " -o " + path(where + ".pgm") + " --decode " + where).exit_code, 0);
+    }
+    EXPECT_EQ(content_of(path("device.pgm")), content_of(path("cpu.pgm")));
+    EXPECT_THAT(run("render " + raw + " -o " + path("frames") + " --decode device").err,
+                HasSubstr("only the end"));
+    EXPECT_THAT(run("render " + raw + " -o " + path("cpu.pgm") + " --decode device --cpu").err,
+                HasSubstr("--cpu"));
+  }
+  EXPECT_THAT(run("verify " + text_file + " --decode device").err, HasSubstr("EVT2 and EVT3"));
+  EXPECT_THAT(run("verify - --decode device --geometry 64x48 <" + text_file).err, HasSubstr("give a file"));
+}
+
 TEST_F(Program, EveryRepresentationIsListedVerifiedAndShown) {
   const std::string file = recording(3000);
   const std::string list = run("representations").out;
