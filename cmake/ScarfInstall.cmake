@@ -34,7 +34,7 @@ endfunction()
 
 scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.h parameters.h pending.h representation.h result.h scarf.h)
 scarf_component(scarf_vulkan)
-scarf_component(scarf_gpu HEADERS gpu.h gpu_encoding.h)
+scarf_component(scarf_gpu HEADERS gpu.h gpu_encoding.h replay.h)
 scarf_component(scarf_cpu_ref HEADERS reference.h)
 scarf_component(scarf_io HEADERS io.h)
 scarf_component(scarf_simulate HEADERS simulate.h)

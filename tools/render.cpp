@@ -1,6 +1,5 @@
 // scarf render: pictures of a recording, as a folder of images, a video or one image.
 #include <algorithm>
-#include <deque>
 #include <filesystem>
 #include <iostream>
 
@@ -8,16 +7,14 @@
 #include "scarf/reference.h"
 #include "tools/commands.h"
 #include "tools/frame_writer.h"
-#include "tools/mosaic.h"
 #include "tools/options.h"
-#include "tools/pictures.h"
 #include "tools/play.h"
 #include "tools/progress.h"
+#include "tools/renderer.h"
 
 namespace scarf::tools {
 namespace {
 
-constexpr size_t kFramesInFlight = 4;    // enough for a device to work while earlier frames are encoded
 constexpr int64_t kDefaultWindow = 33;   // milliseconds: one frame at 30 Hz
 constexpr int64_t kMaxWindow = 100'000;  // milliseconds
 constexpr double kMinVideoFps = 0.1;
@@ -73,92 +70,52 @@ Result<std::unique_ptr<Instants>> make_instants(const RenderOptions& options, Ou
   return frames_at_times(*std::move(times));
 }
 
-struct Shown {
-  std::unique_ptr<Representation> representation;
-  std::string title;
-};
-
-// Renders frames while later events are pushed: the last few images stay on their way.
-class Renderer {
- public:
-  Renderer(std::vector<Shown> shown, FrameWriter& writer) : shown_(std::move(shown)), writer_(writer) {}
-
-  Result<void> push(std::span<const Event> events) {
-    for (const Shown& s : shown_) {
-      const auto report = s.representation->push(events);
-      if (!report) return report.error();
-    }
-    return {};
-  }
-
-  Result<void> ask(const Frame& frame) {
-    InFlight asked{frame, {}};
-    for (const Shown& s : shown_) asked.images.push_back(s.representation->u8_image(frame.t));
-    in_flight_.push_back(std::move(asked));
-    ++frames_;
-    return in_flight_.size() > kFramesInFlight ? write_oldest() : Result<void>();
-  }
-
-  Result<void> finish() {
-    while (!in_flight_.empty()) {
-      if (auto r = write_oldest(); !r) return r;
-    }
-    return writer_.finish();
-  }
-
-  uint64_t frames() const { return frames_; }
-  Representation& first() const { return *shown_.front().representation; }
-
- private:
-  struct InFlight {
-    Frame frame;
-    std::vector<Pending<Image<uint8_t>>> images;
-  };
-
-  Result<void> write_oldest() {
-    InFlight oldest = std::move(in_flight_.front());
-    in_flight_.pop_front();
-    std::vector<Image<uint8_t>> images;
-    for (auto& pending : oldest.images) {
-      auto image = pending.wait();
-      if (!image) return image.error();
-      images.push_back(*std::move(image));
-    }
-    if (images.size() == 1) return writer_.write(oldest.frame, as_picture(images.front()));
-    std::vector<Tile> tiles;
-    for (size_t i = 0; i < images.size(); ++i) tiles.push_back({shown_[i].title, as_picture(images[i])});
-    return writer_.write(oldest.frame, mosaic(tiles));
-  }
-
-  const std::vector<Shown> shown_;
-  FrameWriter& writer_;
-  std::deque<InFlight> in_flight_;
-  uint64_t frames_ = 0;
-};
-
-// What the options ask for, in the order of the tiles, and the name of who computes it.
+// Who computes the frames, and its name for people.
 struct Choice {
-  std::vector<Shown> shown;
+  std::unique_ptr<Renderer> renderer;
   std::string implementation;
+  Representation* first = nullptr;  ///< the one that the filters are in front of, if there are filters
 };
 
-Result<Choice> choose(const RenderOptions& options, SensorSize sensor) {
+// Frames of a file can be computed at the same time, those of a pipe are wanted one by one.
+bool can_be_replayed(const RenderOptions& options) {
+  std::error_code ignored;
+  const StreamOptions& s = options.stream;
+  return s.representation == "scarf" && !s.cpu && s.filters.empty() && !options.window &&
+         std::filesystem::is_regular_file(s.file, ignored);
+}
+
+Result<Choice> choose_replay(const RenderOptions& options, SensorSize sensor) {
+  const auto grid = scarf_grid(options.stream, sensor);
+  if (!grid) return grid.error();
+  const auto context = GpuContext::create(options.stream.device);
+  if (!context) return context.error();
+  auto renderer = make_replay_renderer(*context, *grid, options.stream.accumulation);
+  if (!renderer) return renderer.error();
+  return Choice{*std::move(renderer), (*context)->device().name};
+}
+
+// The representations that the options ask for, in the order of the tiles.
+Result<Choice> choose_live(const RenderOptions& options, SensorSize sensor) {
   Choice choice;
+  std::vector<Shown> shown;
   for (const RepresentationInfo& info : representations()) {
     StreamOptions one = options.stream;
     if (one.representation == kAllRepresentations) one.representation = info.name;
     if (one.representation != info.name) continue;
     auto made = make_implementation(one, sensor);
     if (!made) return made.error();
-    choice.shown.push_back({std::move(made->representation), info.title});
+    shown.push_back({std::move(made->representation), info.title});
     choice.implementation = made->name;
   }
   if (options.window) {
     auto window =
         make_reference_representation(TimeWindowParameters{.window = *options.window * 1000}, sensor);
     if (!window) return window.error();
-    choice.shown.push_back({*std::move(window), text("last ", *options.window, " ms")});
+    shown.push_back({*std::move(window), text("last ", *options.window, " ms")});
   }
+  choice.first = shown.front().representation.get();
+  choice.renderer = make_live_renderer(std::move(shown));
   return choice;
 }
 
@@ -170,12 +127,14 @@ Result<int> render(const RenderOptions& options) {
   if (!instants) return instants.error();
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
-  auto choice = choose(options, recording->sensor);
+  const auto choice = can_be_replayed(options) ? choose_replay(options, recording->sensor)
+                                               : choose_live(options, recording->sensor);
   if (!choice) return choice.error();
   const auto writer = make_frame_writer(options.output, *kind, options.video_fps.value_or(30));
   if (!writer) return writer.error();
 
-  Renderer renderer(std::move(choice->shown), **writer);
+  Renderer& renderer = *choice->renderer;
+  renderer.write_to(**writer);
   uint64_t events = 0;
   double seconds = 0;
   {
@@ -192,11 +151,15 @@ Result<int> render(const RenderOptions& options) {
     events = *played;
     seconds = progress.seconds();
   }
-  const auto filtered = filter_lines(options.stream, renderer.first());
-  if (!filtered) return filtered.error();
+  std::string filtered;
+  if (choice->first != nullptr) {
+    auto lines = filter_lines(options.stream, *choice->first);
+    if (!lines) return lines.error();
+    filtered = *std::move(lines);
+  }
   std::cout << text("rendered ", renderer.frames(), " frames of ", events, " events in ", seconds, " s (",
                     static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
-                    " events/s with reading and writing) on ", choice->implementation, "\n", *filtered);
+                    " events/s with reading and writing) on ", choice->implementation, "\n", filtered);
   return 0;
 }
 

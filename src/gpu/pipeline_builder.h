@@ -30,6 +30,11 @@ class PipelineBuilder {
     if (result_) std::memcpy(target.mapped(), content.data(), content.size_bytes());
     bytes_ += target.size();
   }
+  /// Memory that the host writes and shaders read.
+  void upload(vulkan::Buffer& target, const char* name, uint64_t bytes) {
+    make(target, [&] { return vulkan::Buffer::create(device_, name, bytes, vulkan::MemoryUse::upload); });
+    bytes_ += target.size();
+  }
   /// Memory that shaders write and the host reads.
   void readback(vulkan::Buffer& target, const char* name, uint64_t bytes) {
     make(target, [&] { return vulkan::Buffer::create(device_, name, bytes, vulkan::MemoryUse::readback); });
