@@ -15,6 +15,7 @@ Result<int> bench(const BenchOptions& options) {
   return Error{ErrorCode::device,
                "this is a debug build, whose times mean nothing; build with the release preset"};
 #endif
+  if (options.replay) return bench_replay(options);
   return options.paper ? bench_paper(options) : bench_scenes(options);
 }
 
@@ -71,6 +72,10 @@ void add_bench(CLI::App& program, Command& command) {
   app->add_option("--plot", options->plot, "Write the figure to this file as SVG")
       ->needs(paper)
       ->group(costs);
+
+  app->add_flag("--replay", options->replay, "A picture per millisecond of recorded time: replay and stream")
+      ->excludes(paper)
+      ->excludes(representation);
 
   const std::string work = "Work";
   CLI::Option* device = app->add_option("--device", options->device.device,

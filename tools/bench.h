@@ -16,6 +16,7 @@ struct BenchOptions {
   bool quick = false;
   bool stages = false;
   bool paper = false;
+  bool replay = false;
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
@@ -30,5 +31,8 @@ struct BenchOptions {
 Result<int> bench_scenes(const BenchOptions& options);
 /// The paper's cost table and figure for every representation. Returns the exit code.
 Result<int> bench_paper(const BenchOptions& options);
+
+/// Frames of a recording by a replay beside those of a stream that is asked for each. Returns the exit code.
+Result<int> bench_replay(const BenchOptions& options);
 
 }  // namespace scarf::tools

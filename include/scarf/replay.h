@@ -27,7 +27,8 @@ template <class T>
 using TakeReplayFrame = std::function<Result<void>(const ReplayFrame<T>&)>;
 
 struct ReplayOptions {
-  /// Most frames of one group; 0: chosen for the device and the size of a picture. Never changes a picture.
+  /// Most frames of one group, up to 4,096; 0: chosen for the device and the size of a picture. Never changes
+  /// a picture.
   uint32_t group_frames = 0;
   /// Most events of one group, up to 16,777,216; 0: chosen for the device. Never changes a picture.
   uint32_t group_events = 0;
