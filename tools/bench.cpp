@@ -17,6 +17,7 @@ Result<int> bench(const BenchOptions& options) {
 #endif
   if (options.io) return bench_io(options);
   if (options.wire) return bench_wire(options);
+  if (options.replay) return bench_replay(options);
   if (options.paper) return bench_paper(options);
   return options.offload ? bench_offload(options) : bench_scenes(options);
 }
@@ -98,6 +99,10 @@ void add_bench(CLI::App& program, Command& command) {
   app->add_option("--plot", options->plot, "Write the figure to this file as SVG")
       ->needs(paper)
       ->group(costs);
+
+  app->add_flag("--replay", options->replay, "A picture per millisecond of recorded time: replay and stream")
+      ->excludes(paper)
+      ->excludes(representation);
 
   const std::string work = "Work";
   CLI::Option* device = app->add_option("--device", options->device.device,

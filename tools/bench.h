@@ -22,6 +22,7 @@ struct BenchOptions {
   bool io = false;
   bool wire = false;
   std::vector<std::string> recordings;            ///< with `wire`
+  bool replay = false;
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
@@ -45,5 +46,8 @@ Result<int> bench_io(const BenchOptions& options);
 Result<int> bench_paper(const BenchOptions& options);
 /// Size and cost of the events that are uploaded. Returns the exit code.
 Result<int> bench_wire(const BenchOptions& options);
+
+/// Frames of a recording by a replay beside those of a stream that is asked for each. Returns the exit code.
+Result<int> bench_replay(const BenchOptions& options);
 
 }  // namespace scarf::tools

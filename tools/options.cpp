@@ -145,6 +145,11 @@ Result<Geometry> grid_on(const StreamOptions& o, SensorSize sensor) {
   return make_geometry(o.preset, sensor, parameters);
 }
 
+Result<Geometry> scarf_grid(const StreamOptions& options, SensorSize sensor) {
+  if (const auto r = parse_parameters("scarf", options.parameters); !r) return r.error();
+  return grid_on(options, sensor);
+}
+
 Result<Parameters> parameters_of(const StreamOptions& o) {
   for (const CLI::Option* option : o.grid_options) {
     if (option->count() == 0) continue;
@@ -176,8 +181,7 @@ Result<Wish> wish_of(const StreamOptions& options, SensorSize sensor) {
     if (!parameters) return parameters.error();
     return Wish{std::nullopt, *parameters};
   }
-  if (const auto r = parse_parameters("scarf", options.parameters); !r) return r.error();
-  const auto grid = grid_on(options, sensor);
+  const auto grid = scarf_grid(options, sensor);
   if (!grid) return grid.error();
   return Wish{*grid, {}};
 }

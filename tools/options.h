@@ -63,6 +63,9 @@ inline const std::string kAllRepresentations = "all";
 /// Errors: illegal_parameter, naming the option that is missing, wrong or not used by the preset.
 Result<Geometry> grid_on(const StreamOptions& options, SensorSize sensor);
 
+/// The same, where the representation is SCARF. Errors: also for parameters that SCARF does not have.
+Result<Geometry> scarf_grid(const StreamOptions& options, SensorSize sensor);
+
 /// The parameters of a representation other than SCARF. Errors: illegal_parameter, also for options that only
 /// SCARF has.
 Result<Parameters> parameters_of(const StreamOptions& options);

@@ -36,6 +36,11 @@ class PipelineBuilder {
     make(target, [&] { return StagedBuffer::create(device_, host_name, device_name, bytes); });
     bytes_ += target.memory_bytes();
   }
+  /// Memory that the host writes.
+  void upload(vulkan::Buffer& target, const char* name, uint64_t bytes) {
+    make(target, [&] { return vulkan::Buffer::create(device_, name, bytes, vulkan::MemoryUse::upload); });
+    bytes_ += target.size();
+  }
   /// Memory that shaders write and the host reads.
   void readback(vulkan::Buffer& target, const char* name, uint64_t bytes) {
     make(target, [&] { return vulkan::Buffer::create(device_, name, bytes, vulkan::MemoryUse::readback); });

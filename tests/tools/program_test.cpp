@@ -251,6 +251,26 @@ TEST_F(Program, RendersEveryNthEventAndGivenTimes) {
   expect_picture(path("times_out/frame_000002.png"), reference_picture(2500));
 }
 
+// A file is replayed, standard input is not.
+TEST_F(Program, RendersTheSameFromAFileAndFromAPipe) {
+  const std::string simulated = path("stop.raw");
+  ASSERT_EQ(run("simulate " + simulated + " --scene stop --sensor 64x48 --duration 0.3").exit_code, 0);
+  for (const std::string when : {"--rate 1000", "--every 700", "--at end", "--rate 300 --preset light"}) {
+    const Outcome file = run("render " + simulated + " " + when + " -o " + path("file"));
+    const Outcome pipe = run("render - " + when + " -o " + path("pipe") + " <" + simulated);
+    ASSERT_EQ(file.exit_code, 0) << file.err;
+    ASSERT_EQ(pipe.exit_code, 0) << pipe.err;
+    size_t pictures = 0;
+    for (const auto& entry : fs::directory_iterator(path("pipe"))) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_EQ(content_of(path("file/" + name)), content_of(entry.path().string())) << when << " " << name;
+      ++pictures;
+    }
+    EXPECT_GE(pictures, 2u);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("file")), {}), pictures) << when;
+  }
+}
+
 TEST_F(Program, RendersTheEnd) {
   const std::string file = recording(5000);
   ASSERT_EQ(run("render --cpu " + file + " -o " + path("end.png")).exit_code, 0);

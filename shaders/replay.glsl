@@ -1,0 +1,16 @@
+// What the stages of the replay share. A group of events, x | y << 16 each and all on the sensor, is cut into chunks;
+// chunks[push.chunks].begin is the number of events. Include it after the local size is declared.
+#include "invocation.glsl"
+
+layout(std430, binding = 0) readonly buffer Events { uint events[]; };
+layout(std430, binding = 1) readonly buffer Chunks { ReplayChunk chunks[]; };
+layout(std430, binding = 2) buffer TableBuffer { uint table[]; };  // per chunk and patch
+layout(push_constant) uniform Push { ReplayPush push; };
+
+// The patch in whose cell an event is: column | row << 16; kReplayNone if there is none.
+uint owner_of(uint xy) {
+  // Differences below zero wrap to large numbers, and stay beyond every grid when divided by a cell.
+  const uint i = uint(int(xy & 0xFFFF) - push.origin_x) / push.cell_x;
+  const uint j = uint(int(xy >> 16) - push.origin_y) / push.cell_y;
+  return i < push.grid_x && j < push.grid_y ? i | j << 16 : kReplayNone;
+}
