@@ -1,140 +1,39 @@
 // scarf render: pictures of a recording, as a folder of images, a video or one image.
 #include <algorithm>
-#include <deque>
 #include <filesystem>
 #include <iostream>
 
 #include "core/text.h"
 #include "scarf/reference.h"
 #include "tools/commands.h"
+#include "tools/frame_options.h"
 #include "tools/frame_writer.h"
-#include "tools/mosaic.h"
 #include "tools/options.h"
-#include "tools/pictures.h"
 #include "tools/play.h"
 #include "tools/progress.h"
+#include "tools/renderer.h"
 
 namespace scarf::tools {
 namespace {
 
-constexpr size_t kFramesInFlight = 4;    // enough for a device to work while earlier frames are encoded
 constexpr int64_t kDefaultWindow = 33;   // milliseconds: one frame at 30 Hz
 constexpr int64_t kMaxWindow = 100'000;  // milliseconds
-constexpr double kMinVideoFps = 0.1;
-constexpr double kMaxVideoFps = 1000;
 
 struct RenderOptions {
   StreamOptions stream;
   std::string output;
-  std::optional<FrameRate> rate;
-  std::optional<uint64_t> every;
-  std::string at;
-  std::string times_file;
-  uint64_t max_frames = 100'000;
-  std::optional<double> video_fps;
+  FrameOptions frames;
   std::optional<int64_t> window;
 };
 
-Error illegal(const std::string& message) {
-  return {ErrorCode::illegal_parameter, message};
-}
-
 Result<void> check(const RenderOptions& options, OutputKind kind) {
-  const bool timed = options.rate || options.every || !options.times_file.empty();
-  if (kind == OutputKind::image && timed) {
-    return illegal(text(options.output,
-                        " is one image, which shows the end; leave out --rate, --every and "
-                        "--at-times, or give a folder or a video"));
-  }
-  if (kind == OutputKind::video && !options.at.empty()) {
-    return illegal("--at end is one picture; give a .png, a .pgm or a folder instead of a video");
-  }
-  if (options.video_fps && kind != OutputKind::video) {
-    return illegal(
-        "--video-fps is used by videos only; leave it out, or give an output that ends in .mp4 or .avi");
-  }
-  if (options.video_fps && !(*options.video_fps >= kMinVideoFps && *options.video_fps <= kMaxVideoFps)) {
-    return illegal(
-        text("--video-fps is ", *options.video_fps, ", legal is ", kMinVideoFps, " to ", kMaxVideoFps));
-  }
+  if (auto r = check_frames(options.frames, options.output, kind); !r) return r;
   if (options.window && std::filesystem::path(options.output).extension() == ".pgm") {
-    return illegal("--compare-window is not offered for .pgm; use a .png, a folder or a video");
+    return Error{ErrorCode::illegal_parameter,
+                 "--compare-window is not offered for .pgm; use a .png, a folder or a video"};
   }
   return {};
 }
-
-Result<std::unique_ptr<Instants>> make_instants(const RenderOptions& options, OutputKind kind) {
-  if (options.every) return frames_every(*options.every);
-  if (!options.at.empty() || kind == OutputKind::image) return frame_at_end();
-  if (options.times_file.empty())
-    return frames_at_rate(options.rate.value_or(FrameRate{}), options.max_frames);
-  auto times = read_times(options.times_file);
-  if (!times) return times.error();
-  return frames_at_times(*std::move(times));
-}
-
-struct Shown {
-  std::unique_ptr<Representation> representation;
-  std::string title;
-};
-
-// Renders frames while later events are pushed: the last few images stay on their way.
-class Renderer {
- public:
-  Renderer(std::vector<Shown> shown, FrameWriter& writer) : shown_(std::move(shown)), writer_(writer) {}
-
-  Result<void> push(std::span<const Event> events) {
-    for (const Shown& s : shown_) {
-      const auto report = s.representation->push(events);
-      if (!report) return report.error();
-    }
-    return {};
-  }
-
-  Result<void> ask(const Frame& frame) {
-    InFlight asked{frame, {}};
-    for (const Shown& s : shown_) asked.images.push_back(s.representation->u8_image(frame.t));
-    in_flight_.push_back(std::move(asked));
-    ++frames_;
-    return in_flight_.size() > kFramesInFlight ? write_oldest() : Result<void>();
-  }
-
-  Result<void> finish() {
-    while (!in_flight_.empty()) {
-      if (auto r = write_oldest(); !r) return r;
-    }
-    return writer_.finish();
-  }
-
-  uint64_t frames() const { return frames_; }
-  Representation& first() const { return *shown_.front().representation; }
-
- private:
-  struct InFlight {
-    Frame frame;
-    std::vector<Pending<Image<uint8_t>>> images;
-  };
-
-  Result<void> write_oldest() {
-    InFlight oldest = std::move(in_flight_.front());
-    in_flight_.pop_front();
-    std::vector<Image<uint8_t>> images;
-    for (auto& pending : oldest.images) {
-      auto image = pending.wait();
-      if (!image) return image.error();
-      images.push_back(*std::move(image));
-    }
-    if (images.size() == 1) return writer_.write(oldest.frame, as_picture(images.front()));
-    std::vector<Tile> tiles;
-    for (size_t i = 0; i < images.size(); ++i) tiles.push_back({shown_[i].title, as_picture(images[i])});
-    return writer_.write(oldest.frame, mosaic(tiles));
-  }
-
-  const std::vector<Shown> shown_;
-  FrameWriter& writer_;
-  std::deque<InFlight> in_flight_;
-  uint64_t frames_ = 0;
-};
 
 // What the options ask for, in the order of the tiles, and the name of who computes it.
 struct Choice {
@@ -166,13 +65,13 @@ Result<int> render(const RenderOptions& options) {
   const auto kind = output_kind(options.output);
   if (!kind) return kind.error();
   if (auto r = check(options, *kind); !r) return r.error();
-  const auto instants = make_instants(options, *kind);
+  const auto instants = make_instants(options.frames, *kind);
   if (!instants) return instants.error();
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
   auto choice = choose(options, recording->sensor);
   if (!choice) return choice.error();
-  const auto writer = make_frame_writer(options.output, *kind, options.video_fps.value_or(30));
+  const auto writer = make_frame_writer(options.output, *kind, options.frames.shown_fps());
   if (!writer) return writer.error();
 
   Renderer renderer(std::move(choice->shown), **writer);
@@ -209,26 +108,7 @@ void add_render(CLI::App& program, Command& command) {
   app->add_option("-o,--output", options->output,
                   "A folder of PNG frames, a video (.mp4, .avi), or one image of the end (.png, .pgm)")
       ->required();
-  const std::string when = "When";
-  CLI::Option* rate = add_parsed_option(*app, "--rate", options->rate, parse_frame_rate,
-                                        "Frames per second of recorded time, default 30")
-                          ->group(when);
-  CLI::Option* every =
-      add_parsed_option(*app, "--every", options->every, parse_positive, "A frame after every N events")
-          ->group(when);
-  CLI::Option* at = app->add_option("--at", options->at, "end: one frame of the final state")
-                        ->check(CLI::IsMember({"end"}))
-                        ->group(when);
-  CLI::Option* times =
-      app->add_option("--at-times", options->times_file, "File with one time in us per line")->group(when);
-  rate->excludes(every)->excludes(at)->excludes(times);
-  every->excludes(at)->excludes(times);
-  at->excludes(times);
-  add_parsed_option(*app, "--max-frames", options->max_frames, parse_positive,
-                    "Most frames that one gap in the recording may make due")
-      ->default_str(text(options->max_frames))
-      ->group(when);
-  app->add_option("--video-fps", options->video_fps, "Speed at which a video is shown, default 30");
+  add_frame_options(*app, options->frames, "Most frames that one gap in the recording may make due");
   app->add_option_function<int64_t>(
          "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },
          "Beside each frame: the events of the last MS milliseconds, default 33")
