@@ -5,7 +5,8 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build git
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
-  libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev
+  libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev libtomlplusplus-dev
+  libopenmpi-dev openmpi-bin
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 

@@ -17,6 +17,10 @@ enum class OutputKind { folder, video, image };
 /// extension or ending in / is a folder. Errors: illegal_parameter for any other extension.
 Result<OutputKind> output_kind(const std::string& path);
 
+/// Keeps the libraries behind videos from printing: what goes wrong is told by the writer. Sets environment
+/// variables, so a program with threads calls it before it starts them.
+void silence_video_messages();
+
 /// Takes 8-bit single-channel pictures of one size, in order.
 class FrameWriter {
  public:

@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   scarf::tools::add_info(program, command);
   scarf::tools::add_render(program, command);
   scarf::tools::add_representations(program, command);
+  scarf::tools::add_reprocess(program, command);
   scarf::tools::add_digest(program, command);
   scarf::tools::add_compare(program, command);
   scarf::tools::add_verify(program, command);

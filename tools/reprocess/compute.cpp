@@ -1,0 +1,102 @@
+#include "tools/reprocess/compute.h"
+
+#include <utility>
+
+#include "core/text.h"
+#include "scarf/digest.h"
+#include "tools/play.h"
+#include "tools/read_ahead.h"
+#include "tools/renderer.h"
+
+namespace scarf::tools::reprocess {
+namespace {
+
+class NoWriter final : public FrameWriter {
+ public:
+  Result<void> write(const Frame&, const cv::Mat&) override { return {}; }
+  Result<void> finish() override { return {}; }
+};
+
+Result<bool> pictures_matter(const Options& options) {
+  if (options.stream.representation == "scarf") return false;
+  const auto parameters = parameters_of(options.stream);
+  if (!parameters) return parameters.error();
+  return query_changes_state(*parameters);
+}
+
+FrameOptions with_side_file(FrameOptions frames, const std::string& recording) {
+  if (!frames.times_file.empty()) frames.times_file = side_file(frames.times_file, recording);
+  return frames;
+}
+
+bool has_sequence(const Options& options) {
+  for (const std::string& output : options.outputs) {
+    const auto kind = output_kind("recording" + output);
+    if (kind && *kind != OutputKind::image) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string Machine::name() const {
+  return context ? context->device().name : "CPU reference";
+}
+
+Result<Computed> compute(OpenRecording recording, const std::string& path, const Options& options,
+                         const Machine& machine, FrameWriter* writer, Meter& meter) {
+  const auto matter = pictures_matter(options);
+  if (!matter) return matter.error();
+  std::unique_ptr<Instants> instants;
+  if (has_sequence(options) && (writer != nullptr || *matter)) {
+    auto made = make_instants(with_side_file(options.frames, path), OutputKind::folder);
+    if (!made) return made.error();
+    instants = at_most(*std::move(made), options.frames.max_frames);
+  }
+  auto implementation = machine.context ? make_gpu(machine.context, options.stream, recording.sensor)
+                                        : make_reference(options.stream, recording.sensor);
+  if (!implementation) return implementation.error();
+
+  Computed computed;
+  computed.format = recording.source->format();
+  computed.sensor = recording.sensor;
+  NoWriter no_writer;
+  std::vector<Shown> shown;
+  shown.push_back({std::move(implementation->representation), ""});
+  Renderer renderer(std::move(shown), writer != nullptr ? *writer : no_writer);
+  EventDigest events;
+  {
+    ReadAhead source(std::move(recording.source), [&](std::span<const Event> batch) {
+      for (const Event& e : batch) events.add(e);
+    });
+    const auto push = [&](std::span<const Event> batch) -> Result<void> {
+      computed.last_time = batch.back().t;
+      meter.bytes = source.bytes_read();
+      meter.events += batch.size();
+      return renderer.push(batch);
+    };
+    const auto played =
+        play(source, {.batches = machine.batches, .instants = instants.get()},
+             {.events = push, .frame = [&](const Frame& frame) { return renderer.ask(frame); }});
+    if (!played) return played.error();
+    if (auto r = renderer.finish(); !r) return r.error();
+    computed.report = source.report();
+  }
+  computed.frames = renderer.frames();
+
+  Representation& representation = renderer.first();
+  const auto state = representation.state().wait();
+  if (!state) return state.error();
+  auto image = representation.u8_image().wait();
+  if (!image) return image.error();
+  auto filters = representation.filter_reports().wait();
+  if (!filters) return filters.error();
+  Digest of_state;
+  of_state.add(*state);
+  computed.digests = {of_state.hex(), image_digest(*image), events.hex()};
+  computed.image = *std::move(image);
+  computed.filters = *std::move(filters);
+  return computed;
+}
+
+}  // namespace scarf::tools::reprocess
