@@ -6,7 +6,7 @@ packages=(
   g++ cmake ninja-build git
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
   libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev libtomlplusplus-dev
-  libopenmpi-dev openmpi-bin
+  libopenmpi-dev openmpi-bin slurm-wlm munge
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 

@@ -109,7 +109,10 @@ size_t threads_of(const ReprocessOptions& options) {
 }
 
 Result<Workplace> workplace_of(const ReprocessOptions& options) {
-  Workplace workplace{{nullptr, options.work.batches}, options.output, options.resume};
+  Workplace workplace;
+  workplace.machine.batches = options.work.batches;
+  workplace.out = options.output;
+  workplace.resume = options.resume;
   if (options.work.cpu) return workplace;
   auto context = GpuContext::create(options.work.device);
   if (!context) return context.error();
