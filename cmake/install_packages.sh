@@ -6,7 +6,8 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build git
   libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
-  libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev
+  libeigen3-dev libopencv-dev libcli11-dev libssl-dev nlohmann-json3-dev libtomlplusplus-dev
+  libopenmpi-dev openmpi-bin slurm-wlm munge
   libgtest-dev libgmock-dev libbenchmark-dev
   libhdf5-dev hdf5-filter-plugin-blosc-serial hdf5-filter-plugin libzip-dev libpng-dev
   python3-h5py python3-numpy

@@ -21,14 +21,13 @@ struct BenchOptions {
   bool offload = false;
   bool io = false;
   bool wire = false;
-  std::vector<std::string> recordings;            ///< with `wire`
+  std::vector<std::string> recordings;            ///< with `io` and `wire`; none: what scarf makes itself
   bool replay = false;
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
   std::string file;                               ///< a recording; with `paper`
   std::optional<SensorSize> sensor;               ///< with `paper` and `io`
-  std::vector<std::string> recordings;            ///< with `io`; none: what scarf writes itself
   std::string json, csv, plot;                    ///< files to write; empty: none
   DeviceOptions device;
 };

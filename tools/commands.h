@@ -31,6 +31,7 @@ void add_formats(CLI::App& program, Command& command);
 void add_info(CLI::App& program, Command& command);
 void add_representations(CLI::App& program, Command& command);
 void add_render(CLI::App& program, Command& command);
+void add_reprocess(CLI::App& program, Command& command);
 void add_simulate(CLI::App& program, Command& command);
 void add_triggers(CLI::App& program, Command& command);
 void add_verify(CLI::App& program, Command& command);

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -65,9 +66,7 @@ class ImageWriter final : public FrameWriter {
 class VideoFileWriter final : public FrameWriter {
  public:
   VideoFileWriter(const std::string& path, double fps) : path_(path), file_(path), fps_(fps) {
-    // What goes wrong is told in one line, by the caller.
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);  // AV_LOG_QUIET
+    silence_video_messages();
   }
 
   Result<void> write(const Frame&, const cv::Mat& picture) override {
@@ -181,6 +180,14 @@ Result<void> check_folder_of(const std::string& path) {
 }
 
 }  // namespace
+
+void silence_video_messages() {
+  static std::once_flag done;
+  std::call_once(done, [] {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);  // AV_LOG_QUIET
+  });
+}
 
 Result<OutputKind> output_kind(const std::string& path) {
   if (path.empty()) return Error{ErrorCode::illegal_parameter, "the name of the output is empty"};

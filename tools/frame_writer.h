@@ -24,6 +24,11 @@ inline bool is_array(OutputKind kind) {
 }
 
 /// Takes single-channel pictures of one size and type, in order: 8 bits, and floats where is_array().
+/// Keeps the libraries behind videos from printing: what goes wrong is told by the writer. Sets environment
+/// variables, so a program with threads calls it before it starts them.
+void silence_video_messages();
+
+/// Takes 8-bit single-channel pictures of one size, in order.
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;

@@ -1,10 +1,12 @@
 #include "tools/instants.h"
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <utility>
 
 #include "core/text.h"
+#include "io/decimal.h"
 #include "tools/parse.h"
 
 namespace scarf::tools {
@@ -116,7 +118,64 @@ class AtEnd final : public Instants {
   Frame last_;
 };
 
+class AtMost final : public Instants {
+ public:
+  AtMost(std::unique_ptr<Instants> inner, uint64_t limit) : inner_(std::move(inner)), limit_(limit) {}
+
+  Result<void> due(std::span<const Event> events, const TakeFrame& take) override {
+    return inner_->due(events, counted(take));
+  }
+  Result<void> due_at_end(const TakeFrame& take) override { return inner_->due_at_end(counted(take)); }
+
+ private:
+  TakeFrame counted(const TakeFrame& take) {
+    return [this, &take](const Frame& frame) -> Result<void> {
+      if (frames_++ < limit_) return take(frame);
+      return Error{ErrorCode::bad_input,
+                   text("more than ", limit_, " frames are due, the next one at t ", frame.t,
+                        "; if that is right, raise --max-frames, or ask for fewer frames")};
+    };
+  }
+
+  const std::unique_ptr<Instants> inner_;
+  const uint64_t limit_;
+  uint64_t frames_ = 0;
+};
+
+// The n-th column of a line, the first being 1; empty if there are fewer.
+std::string_view column_of(std::string_view line, uint64_t n) {
+  constexpr std::string_view kSeparators = " \t,";
+  while (true) {
+    line.remove_prefix(std::min(line.find_first_not_of(kSeparators), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
+    if (--n == 0 || word.empty()) return word;
+    line.remove_prefix(word.size());
+  }
+}
+
+std::optional<int64_t> microseconds(std::string_view word, TimesFormat::Unit unit) {
+  if (unit == TimesFormat::Unit::s) return microseconds_from_seconds(word);
+  if (word.find_first_of("eE") != word.npos) return std::nullopt;
+  const char* const exponent = unit == TimesFormat::Unit::ms   ? "e-3"
+                               : unit == TimesFormat::Unit::us ? "e-6"
+                                                               : "e-9";
+  return microseconds_from_seconds(text(word, exponent));
+}
+
 }  // namespace
+
+std::unique_ptr<Instants> at_most(std::unique_ptr<Instants> instants, uint64_t limit) {
+  return std::make_unique<AtMost>(std::move(instants), limit);
+}
+
+Result<TimesFormat::Unit> parse_time_unit(const std::string& word) {
+  using Unit = TimesFormat::Unit;
+  for (const auto& [name, unit] : {std::pair{"s", Unit::s}, std::pair{"ms", Unit::ms},
+                                   std::pair{"us", Unit::us}, std::pair{"ns", Unit::ns}}) {
+    if (word == name) return unit;
+  }
+  return Error{ErrorCode::illegal_parameter, text("'", word, "' is no unit of time; legal is s, ms, us, ns")};
+}
 
 Result<FrameRate> parse_frame_rate(const std::string& word) {
   const size_t point = word.find('.');
@@ -151,21 +210,22 @@ std::unique_ptr<Instants> frame_at_end() {
   return std::make_unique<AtEnd>();
 }
 
-Result<std::vector<int64_t>> read_times(const std::string& path) {
+Result<std::vector<int64_t>> read_times(const std::string& path, const TimesFormat& format) {
   std::ifstream file(path);
   if (!file) return Error{ErrorCode::io, text("cannot open the times file ", path)};
   std::vector<int64_t> times;
   std::string line;
   for (size_t number = 1; std::getline(file, line); ++number) {
     if (line.ends_with('\r')) line.pop_back();
-    if (line.empty()) continue;
-    const auto t = parse_integer<int64_t>(line);
+    if (line.empty() || line.starts_with('#')) continue;
+    const std::string_view word = column_of(line, format.column);
+    const auto t = microseconds(word, format.unit);
     if (!t) {
-      return Error{ErrorCode::bad_input, text(path, " line ", number, ": '", line.substr(0, kMaxQuote),
-                                              "' is not a whole number of microseconds")};
+      return Error{ErrorCode::bad_input, text(path, " line ", number, ": '", word.substr(0, kMaxQuote),
+                                              "' in column ", format.column, " is not a time")};
     }
     if (!times.empty() && *t < times.back()) {
-      return Error{ErrorCode::bad_input, text(path, " line ", number, ": time ", *t,
+      return Error{ErrorCode::bad_input, text(path, " line ", number, ": time ", word,
                                               " is before the one above it; sort the times")};
     }
     times.push_back(*t);

@@ -56,7 +56,19 @@ std::unique_ptr<Instants> frames_at_times(std::vector<int64_t> times);
 /// One frame: the final state.
 std::unique_ptr<Instants> frame_at_end();
 
-/// Times out of a text file, one in microseconds per line. Errors: io; bad_input, naming the line.
-Result<std::vector<int64_t>> read_times(const std::string& path);
+/// The frames of `instants`, `limit` of them at most. Errors: bad_input instead of the frame beyond.
+std::unique_ptr<Instants> at_most(std::unique_ptr<Instants> instants, uint64_t limit);
+
+/// Where the times stand in a text file, and what they count.
+struct TimesFormat {
+  uint64_t column = 1;  ///< columns are separated by blanks, tabs or commas
+  enum class Unit { s, ms, us, ns } unit = Unit::us;
+};
+/// "s", "ms", "us" or "ns". Errors: illegal_parameter.
+Result<TimesFormat::Unit> parse_time_unit(const std::string& word);
+
+/// Times out of a text file, one per line and rising, rounded to microseconds. Empty lines and lines that
+/// begin with # are left out. Errors: io; bad_input, naming the line.
+Result<std::vector<int64_t>> read_times(const std::string& path, const TimesFormat& format = {});
 
 }  // namespace scarf::tools

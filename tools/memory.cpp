@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include "core/text.h"
-#include "scarf/gpu.h"
 
 namespace scarf::tools {
 namespace {
@@ -12,13 +11,11 @@ constexpr uint64_t kMebibyte = uint64_t{1} << 20;
 
 }  // namespace
 
-std::string memory_line(const Representation& representation) {
+std::string memory_line(std::optional<uint64_t> device_bytes) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const uint64_t process = static_cast<uint64_t>(usage.ru_maxrss) * 1024 / kMebibyte;  // ru_maxrss: KiB
-  const auto* const on_device = dynamic_cast<const GpuRepresentation*>(&representation);
-  const std::string device =
-      on_device == nullptr ? "" : text("device ", on_device->memory_bytes() / kMebibyte, " MiB, ");
+  const std::string device = device_bytes ? text("device ", *device_bytes / kMebibyte, " MiB, ") : "";
   return text("memory: ", device, "process at most ", process, " MiB\n");
 }
 

@@ -58,7 +58,10 @@ void add_parameter_options(CLI::App& app, StreamOptions& o) {
   }
 }
 
-void add_representation_options(CLI::App& app, StreamOptions& o, std::vector<std::string> names) {
+}  // namespace
+
+void add_representation_options(CLI::App& app, StreamOptions& o, const std::vector<std::string>& more) {
+  std::vector<std::string> names = more;
   for (const RepresentationInfo& info : representations()) names.push_back(info.name);
   app.add_option("--representation", o.representation, "Which picture; see scarf representations")
       ->check(CLI::IsMember(names));
@@ -103,13 +106,14 @@ void add_representation_options(CLI::App& app, StreamOptions& o, std::vector<std
       ->group("Noise filters");
 }
 
-}  // namespace
-
 void add_stream_options(CLI::App& app, StreamOptions& o, const std::vector<std::string>& more) {
   app.add_option("file", o.file, "Recording; - is standard input")->required();
   add_read_options(app, o.read);
   add_representation_options(app, o, more);
+  add_work_options(app, o);
+}
 
+void add_work_options(CLI::App& app, StreamOptions& o) {
   const std::string work = "Work";
   add_parsed_option(app, "--batch", o.batches, parse_batch_sizes,
                     "Events per batch: N, random or random:SEED; never changes a result")
@@ -205,16 +209,22 @@ Result<Implementation> make_reference(const StreamOptions& options, SensorSize s
 }
 
 Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor) {
-  const auto wish = wish_of(options, sensor);
-  if (!wish) return wish.error();
+  if (const auto wish = wish_of(options, sensor); !wish) return wish.error();  // before a device is woken
   const auto context = GpuContext::create(options.device);
   if (!context) return context.error();
-  const std::string name = (*context)->device().name;
+  return make_gpu(*context, options, sensor);
+}
+
+Result<Implementation> make_gpu(const std::shared_ptr<GpuContext>& context, const StreamOptions& options,
+                                SensorSize sensor) {
+  const auto wish = wish_of(options, sensor);
+  if (!wish) return wish.error();
+  const std::string& name = context->device().name;
   if (wish->grid) {
-    return implementation(make_gpu_scarf(*context, *wish->grid, options.accumulation, {}, options.filters),
+    return implementation(make_gpu_scarf(context, *wish->grid, options.accumulation, {}, options.filters),
                           name);
   }
-  return implementation(make_gpu_representation(*context, wish->parameters, sensor, {}, options.filters),
+  return implementation(make_gpu_representation(context, wish->parameters, sensor, {}, options.filters),
                         name);
 }
 

@@ -53,9 +53,14 @@ CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, Target& t
       });
 }
 
-/// The recording, the representation and its parameters, the batches and the device.
+/// The recording, the representation and its parameters, the batches and the device: all of the below.
 /// `more`: further names that the option --representation takes.
 void add_stream_options(CLI::App& app, StreamOptions& options, const std::vector<std::string>& more = {});
+/// The representation, its parameters, and the filters in front.
+void add_representation_options(CLI::App& app, StreamOptions& options,
+                                const std::vector<std::string>& more = {});
+/// The batches and who does the work.
+void add_work_options(CLI::App& app, StreamOptions& options);
 /// Each of representations(), with its defaults.
 inline const std::string kAllRepresentations = "all";
 
@@ -84,6 +89,9 @@ struct Implementation {
 };
 Result<Implementation> make_reference(const StreamOptions& options, SensorSize sensor);
 Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor);
+/// On a device that is in use already, and that other streams may share.
+Result<Implementation> make_gpu(const std::shared_ptr<GpuContext>& context, const StreamOptions& options,
+                                SensorSize sensor);
 /// One line for each noise filter: what became of the events. Errors: whatever the representation returned.
 Result<std::string> filter_lines(const StreamOptions& options, Representation& representation);
 /// The one that the options choose.

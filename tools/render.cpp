@@ -1,4 +1,4 @@
-// scarf render: pictures of a recording, as a folder of images, a video or one image.
+// scarf render: pictures, tensors and sparse events of a recording.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -7,30 +7,25 @@
 #include "scarf/reference.h"
 #include "tools/commands.h"
 #include "tools/device_words.h"
+#include "tools/frame_options.h"
 #include "tools/frame_writer.h"
 #include "tools/memory.h"
 #include "tools/options.h"
 #include "tools/play.h"
 #include "tools/products.h"
 #include "tools/progress.h"
+#include "tools/renderer.h"
 
 namespace scarf::tools {
 namespace {
 
 constexpr int64_t kDefaultWindow = 33;   // milliseconds: one frame at 30 Hz
 constexpr int64_t kMaxWindow = 100'000;  // milliseconds
-constexpr double kMinVideoFps = 0.1;
-constexpr double kMaxVideoFps = 1000;
 
 struct RenderOptions {
   StreamOptions stream;
   std::string output;
-  std::optional<FrameRate> rate;
-  std::optional<uint64_t> every;
-  std::string at;
-  std::string times_file;
-  uint64_t max_frames = 100'000;
-  std::optional<double> video_fps;
+  FrameOptions frames;
   std::optional<int64_t> window;
   bool floats = false;
   std::string encoding;  // words, see parse_encoding; empty: pictures
@@ -49,27 +44,11 @@ Error illegal(const std::string& message) {
 }
 
 Result<void> check(const RenderOptions& options, OutputKind kind) {
-  const bool timed = options.rate || options.every || !options.times_file.empty();
-  if (kind == OutputKind::image && timed) {
-    return illegal(text(options.output,
-                        " is one image, which shows the end; leave out --rate, --every and "
-                        "--at-times, or give a folder or a video"));
-  }
+  if (auto r = check_frames(options.frames, options.output, kind); !r) return r;
   if (kind != OutputKind::image && options.decode_on_device) {
     return illegal(
         "--decode device leaves the times of events on the device, so only the end can be shown; give a .png "
         "or a .pgm, or leave it out");
-  }
-  if (kind == OutputKind::video && !options.at.empty()) {
-    return illegal("--at end is one picture; give a .png, a .pgm or a folder instead of a video");
-  }
-  if (options.video_fps && kind != OutputKind::video) {
-    return illegal(
-        "--video-fps is used by videos only; leave it out, or give an output that ends in .mp4 or .avi");
-  }
-  if (options.video_fps && !(*options.video_fps >= kMinVideoFps && *options.video_fps <= kMaxVideoFps)) {
-    return illegal(
-        text("--video-fps is ", *options.video_fps, ", legal is ", kMinVideoFps, " to ", kMaxVideoFps));
   }
   if (options.window && std::filesystem::path(options.output).extension() == ".pgm") {
     return illegal("--compare-window is not offered for .pgm; use a .png, a folder or a video");
@@ -94,17 +73,7 @@ Result<void> check(const RenderOptions& options, OutputKind kind) {
   return {};
 }
 
-Result<std::unique_ptr<Instants>> make_instants(const RenderOptions& options, OutputKind kind) {
-  if (options.every) return frames_every(*options.every);
-  if (!options.at.empty() || kind == OutputKind::image) return frame_at_end();
-  if (options.times_file.empty())
-    return frames_at_rate(options.rate.value_or(FrameRate{}), options.max_frames);
-  auto times = read_times(options.times_file);
-  if (!times) return times.error();
-  return frames_at_times(*std::move(times));
-}
-
-// What the options ask for, in the order of the tiles, and the name of who computes it.
+// The representations that the options ask for, in the order of the tiles, and the name of who computes them.
 struct Choice {
   std::vector<Shown> shown;
   std::string implementation;
@@ -142,7 +111,7 @@ Result<std::vector<std::unique_ptr<FrameProduct>>> make_products(const RenderOpt
     if (!tensors) return tensors.error();
     products.push_back(*std::move(tensors));
   } else {
-    auto writer = make_frame_writer(options.output, kind, options.video_fps.value_or(30));
+    auto writer = make_frame_writer(options.output, kind, options.frames.shown_fps());
     if (!writer) return writer.error();
     products.push_back(options.floats ? float_product(first, *std::move(writer))
                                       : picture_product(shown, *std::move(writer)));
@@ -178,18 +147,50 @@ Result<uint64_t> render_words(const RenderOptions& options, const std::vector<Sh
   return report->events;
 }
 
+// Many frames of a file can be computed at the same time; those of a pipe are wanted one by one.
+bool can_be_replayed(const RenderOptions& options, OutputKind kind) {
+  std::error_code ignored;
+  const StreamOptions& s = options.stream;
+  const bool many = kind != OutputKind::image && options.frames.at.empty();
+  const bool pictures =
+      !options.floats && options.encoding.empty() && options.sparse.empty() && !options.window;
+  return many && pictures && s.representation == "scarf" && !s.cpu && s.filters.empty() &&
+         !options.decode_on_device && std::filesystem::is_regular_file(s.file, ignored);
+}
+
+Result<std::unique_ptr<Renderer>> make_replay(const RenderOptions& options, OutputKind kind,
+                                              SensorSize sensor, std::string& implementation) {
+  const auto grid = scarf_grid(options.stream, sensor);
+  if (!grid) return grid.error();
+  const auto context = GpuContext::create(options.stream.device);
+  if (!context) return context.error();
+  implementation = (*context)->device().name;
+  return make_replay_renderer(*context, *grid, options.stream.accumulation, [&] {
+    return make_frame_writer(options.output, kind, options.frames.shown_fps());
+  });
+}
+
+Result<std::unique_ptr<Renderer>> make_live(const RenderOptions& options, OutputKind kind,
+                                            const std::vector<Shown>& shown) {
+  auto products = make_products(options, kind, shown);
+  if (!products) return products.error();
+  return make_live_renderer(shown, *std::move(products));
+}
+
 Result<int> render(const RenderOptions& options) {
   const auto kind = output_kind(options.output);
   if (!kind) return kind.error();
   if (auto r = check(options, *kind); !r) return r.error();
-  const auto instants = make_instants(options, *kind);
+  const auto instants = make_instants(options.frames, *kind);
   if (!instants) return instants.error();
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
-  auto choice = choose(options, recording->sensor);
+  const bool replayed = can_be_replayed(options, *kind);
+  auto choice = replayed ? Result<Choice>(Choice{}) : choose(options, recording->sensor);
   if (!choice) return choice.error();
-  auto products = make_products(options, *kind, choice->shown);
-  if (!products) return products.error();
+  const auto renderer = replayed ? make_replay(options, *kind, recording->sensor, choice->implementation)
+                                 : make_live(options, *kind, choice->shown);
+  if (!renderer) return renderer.error();
 
   uint64_t frames = 0;
   uint64_t events = 0;
@@ -198,18 +199,11 @@ Result<int> render(const RenderOptions& options) {
     Progress progress(*recording->source);
     const auto push = [&](std::span<const Event> batch) -> Result<void> {
       progress.add(batch.size());
-      for (const Shown& s : choice->shown) {
-        const auto report = s.representation->push(batch);
-        if (!report) return report.error();
-      }
-      return {};
+      return (*renderer)->push(batch);
     };
     const auto ask = [&](const Frame& frame) -> Result<void> {
       ++frames;
-      for (const auto& product : *products) {
-        if (auto r = product->ask(frame); !r) return r;
-      }
-      return {};
+      return (*renderer)->ask(frame);
     };
     const auto played =
         options.decode_on_device
@@ -217,18 +211,20 @@ Result<int> render(const RenderOptions& options) {
             : play(*recording->source, {.batches = options.stream.batches, .instants = instants->get()},
                    {.events = push, .frame = ask});
     if (!played) return played.error();
-    for (const auto& product : *products) {
-      if (auto r = product->finish(); !r) return r.error();
-    }
+    if (auto r = (*renderer)->finish(); !r) return r.error();
     events = *played;
     seconds = progress.seconds();
   }
-  const auto filtered = filter_lines(options.stream, *choice->shown.front().representation);
-  if (!filtered) return filtered.error();
+  std::string filtered;
+  if (!choice->shown.empty()) {
+    auto lines = filter_lines(options.stream, *choice->shown.front().representation);
+    if (!lines) return lines.error();
+    filtered = *std::move(lines);
+  }
   std::cout << text("rendered ", frames, " frames of ", events, " events in ", seconds, " s (",
                     static_cast<uint64_t>(static_cast<double>(events) / std::max(seconds, 1e-9)),
                     " events/s with reading and writing) on ", choice->implementation, "\n",
-                    memory_line(*choice->shown.front().representation), *filtered);
+                    memory_line((*renderer)->device_bytes()), filtered);
   return 0;
 }
 
@@ -256,26 +252,7 @@ void add_render(CLI::App& program, Command& command) {
       ->group(what);
   app->add_option("--sparse", options->sparse, "File for the sparse events of each frame (.h5, .npz)")
       ->group(what);
-  const std::string when = "When";
-  CLI::Option* rate = add_parsed_option(*app, "--rate", options->rate, parse_frame_rate,
-                                        "Frames per second of recorded time, default 30")
-                          ->group(when);
-  CLI::Option* every =
-      add_parsed_option(*app, "--every", options->every, parse_positive, "A frame after every N events")
-          ->group(when);
-  CLI::Option* at = app->add_option("--at", options->at, "end: one frame of the final state")
-                        ->check(CLI::IsMember({"end"}))
-                        ->group(when);
-  CLI::Option* times =
-      app->add_option("--at-times", options->times_file, "File with one time in us per line")->group(when);
-  rate->excludes(every)->excludes(at)->excludes(times);
-  every->excludes(at)->excludes(times);
-  at->excludes(times);
-  add_parsed_option(*app, "--max-frames", options->max_frames, parse_positive,
-                    "Most frames that one gap in the recording may make due")
-      ->default_str(text(options->max_frames))
-      ->group(when);
-  app->add_option("--video-fps", options->video_fps, "Speed at which a video is shown, default 30");
+  add_frame_options(*app, options->frames, "Most frames that one gap in the recording may make due");
   app->add_option_function<int64_t>(
          "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },
          "Beside each frame: the events of the last MS milliseconds, default 33")

@@ -27,14 +27,22 @@ constexpr Magic kMagics[] = {
     {"\xff\xd8\xff"sv, "looks like a JPEG image, not events"},
 };
 
+std::string_view characters(std::span<const uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
 
 std::string_view foreign_format(std::span<const uint8_t> bytes) {
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string_view start = characters(bytes);
   for (const Magic& magic : kMagics) {
     if (start.starts_with(magic.bytes)) return magic.advice;
   }
   return {};
+}
+
+bool foreign_recording(std::span<const uint8_t> bytes) {
+  return characters(bytes).starts_with("#!AER-DAT");
 }
 
 }  // namespace scarf

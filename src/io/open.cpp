@@ -78,7 +78,9 @@ Error unrecognised(const Input& input) {
   if (input.folder) what = "this folder is no recording that scarf knows";
   if (input.header) what = "the header names no format, and the words do not tell";
   if (what.empty()) what = bytes.empty() ? "the file is empty" : "not recognised as events";
-  return {ErrorCode::bad_input, text(what, "; name the format with --format, `scarf formats` lists them")};
+  const bool recording = input.header || foreign_recording(bytes);
+  return {recording ? ErrorCode::bad_input : ErrorCode::unrecognised,
+          text(what, "; name the format with --format, `scarf formats` lists them")};
 }
 
 Result<const Format*> recognise(Input& input) {

@@ -112,7 +112,7 @@ TEST(Open, AMissingFileIsAnIoErrorAndAnyFolderNoRecording) {
   EXPECT_THAT(missing.error().message, HasSubstr("/nonexistent/events.raw"));
   const auto folder = open_events("/");
   ASSERT_FALSE(folder.ok());
-  EXPECT_EQ(folder.error().code, ErrorCode::bad_input);
+  EXPECT_EQ(folder.error().code, ErrorCode::unrecognised);
   EXPECT_THAT(folder.error().message, HasSubstr("folder"));
 }
 

@@ -50,12 +50,12 @@ bool is_number(const Handle& type) {
 }  // namespace
 
 bool Dataset::exists(const Handle& file, const std::string& path) {
-  const Silence silence;
+  const Turn turn;
   return static_cast<bool>(open_object(file, path));
 }
 
 Result<Dataset> Dataset::open(const Handle& file, const std::string& path) {
-  const Silence silence;
+  const Turn turn;
   Dataset made;
   made.path_ = path;
   made.dataset_ = open_object(file, path);
@@ -146,7 +146,7 @@ void Dataset::for_each_chunk(uint64_t first, uint64_t count, Use use) const {
 }
 
 bool Dataset::written(uint64_t first, uint64_t count) const {
-  const Silence silence;
+  const Turn turn;
   if (chunk_.empty()) return H5Dget_storage_size(dataset_.id()) > 0;
   bool all = true;
   for_each_chunk(first, count, [&](hsize_t size) { return all = size > 0; });
@@ -167,7 +167,7 @@ Result<void> Dataset::check_chunks(uint64_t first, uint64_t count) const {
 }
 
 Result<void> Dataset::read(uint64_t first, uint64_t count, hid_t memory_type, void* out) const {
-  const Silence silence;
+  const Turn turn;
   if (auto r = check_chunks(first, count); !r) return r;
   std::vector<hsize_t> start(shape_.size(), 0);
   start[0] = first;
@@ -183,7 +183,7 @@ Result<void> Dataset::read(uint64_t first, uint64_t count, hid_t memory_type, vo
 }
 
 Result<void> Dataset::read_chunk(uint64_t first, std::vector<uint8_t>& bytes, bool& filtered) const {
-  const Silence silence;
+  const Turn turn;
   if (auto r = check_chunks(first, 1); !r) return r;
   std::vector<hsize_t> start(shape_.size(), 0);
   start[0] = first;
@@ -202,7 +202,7 @@ Result<void> Dataset::read_chunk(uint64_t first, std::vector<uint8_t>& bytes, bo
 }
 
 uint64_t Dataset::byte_of(uint64_t row) const {
-  const Silence silence;
+  const Turn turn;
   haddr_t address = HADDR_UNDEF;
   if (chunk_.empty()) {
     address = H5Dget_offset(dataset_.id());
@@ -217,7 +217,7 @@ uint64_t Dataset::byte_of(uint64_t row) const {
 }
 
 std::optional<std::vector<int64_t>> short_dataset(const Handle& file, const std::string& path) {
-  const Silence silence;
+  const Turn turn;
   const Handle dataset = open_object(file, path);
   if (!dataset) return std::nullopt;
   const auto count = short_size(Handle(H5Dget_space(dataset.id())));
@@ -233,7 +233,7 @@ std::optional<std::vector<int64_t>> short_dataset(const Handle& file, const std:
 }
 
 std::optional<std::vector<int64_t>> root_attribute(const Handle& file, const std::string& name) {
-  const Silence silence;
+  const Turn turn;
   const Handle attribute(H5Aopen(file.id(), name.c_str(), H5P_DEFAULT));
   if (!attribute) return std::nullopt;
   const auto count = short_size(Handle(H5Aget_space(attribute.id())));
@@ -244,7 +244,7 @@ std::optional<std::vector<int64_t>> root_attribute(const Handle& file, const std
 }
 
 std::optional<std::string> root_text(const Handle& file, const std::string& name) {
-  const Silence silence;
+  const Turn turn;
   const Handle attribute(H5Aopen(file.id(), name.c_str(), H5P_DEFAULT));
   if (!attribute) return std::nullopt;
   const Handle type(H5Aget_type(attribute.id()));

@@ -24,7 +24,7 @@ Error no_numbers(const std::string& path) {
 
 Result<EventTable> EventTable::open(const Handle& file, const Layout& layout, const std::string& place,
                                     const std::string& columns) {
-  const Silence silence;
+  const Turn turn;
   EventTable table;
   Result<void> opened;
   switch (layout.shape) {

@@ -15,7 +15,7 @@ constexpr unsigned kDeflateLevel = 1;
 
 Result<GrowingDataset> GrowingDataset::create(const Handle& file, const std::string& path, hid_t type,
                                               std::span<const size_t> row_shape, size_t rows_per_chunk) {
-  const Silence silence;
+  const Turn turn;
   GrowingDataset made;
   made.path_ = path;
   made.shape_ = {0};
@@ -38,7 +38,7 @@ Result<GrowingDataset> GrowingDataset::create(const Handle& file, const std::str
 }
 
 Result<void> GrowingDataset::append(hid_t type, const void* values, size_t count) {
-  const Silence silence;
+  const Turn turn;
   const hsize_t row = std::accumulate(shape_.begin() + 1, shape_.end(), hsize_t{1}, std::multiplies<>());
   std::vector<hsize_t> start(shape_.size(), 0);
   start[0] = shape_[0];
@@ -58,7 +58,7 @@ Result<void> GrowingDataset::append(hid_t type, const void* values, size_t count
 }
 
 Result<void> GrowingDataset::close() {
-  const Silence silence;
+  const Turn turn;
   if (!dataset_.close()) return error_of(ErrorCode::io, "cannot write " + path_);
   return {};
 }

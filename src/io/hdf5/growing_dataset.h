@@ -74,7 +74,7 @@ class GrowingDataset {
 /// Writes one number. Errors: io.
 template <class T>
 Result<void> write_scalar(const Handle& file, const std::string& path, T value) {
-  const Silence silence;
+  const Turn turn;
   const Handle space(H5Screate(H5S_SCALAR));
   const Handle dataset(H5Dcreate2(file.id(), path.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
                                   H5P_DEFAULT, H5P_DEFAULT));

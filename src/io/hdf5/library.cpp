@@ -14,6 +14,11 @@ herr_t keep_description(unsigned, const H5E_error2_t* entry, void* kept) {
 
 }  // namespace
 
+std::recursive_mutex& library_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 Error error_of(ErrorCode code, const std::string& what) {
   std::string why;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_description, &why);
@@ -22,7 +27,7 @@ Error error_of(ErrorCode code, const std::string& what) {
 }
 
 Result<Handle> open_file(const std::string& path) {
-  const Silence silence;
+  const Turn turn;
   register_lzf();
   Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!file) return error_of(ErrorCode::bad_input, "cannot be opened as HDF5");
@@ -30,7 +35,7 @@ Result<Handle> open_file(const std::string& path) {
 }
 
 Result<Handle> open_bytes(std::span<const uint8_t> bytes) {
-  const Silence silence;
+  const Turn turn;
   register_lzf();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS));
   constexpr size_t kIncrement = 64 * 1024;
@@ -43,14 +48,14 @@ Result<Handle> open_bytes(std::span<const uint8_t> bytes) {
 }
 
 Result<Handle> create_file(const std::string& path) {
-  const Silence silence;
+  const Turn turn;
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   if (!file) return error_of(ErrorCode::io, "cannot create the file");
   return file;
 }
 
 Result<void> close_file(Handle& file) {
-  const Silence silence;
+  const Turn turn;
   if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0 || !file.close())
     return error_of(ErrorCode::io, "cannot write");
   return {};

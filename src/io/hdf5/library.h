@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,6 +12,9 @@
 #include "scarf/result.h"
 
 namespace scarf::hdf5 {
+
+/// Debian builds libhdf5 without its own lock: threads take turns.
+std::recursive_mutex& library_mutex();
 
 /// Owns anything that libhdf5 has opened: a file, a dataset, a type, a property list.
 class Handle {
@@ -29,24 +33,29 @@ class Handle {
   explicit operator bool() const { return id_ >= 0; }
   hid_t id() const { return id_; }
   /// Whether that went well; files and datasets may write while they are closed.
-  bool close() { return id_ < 0 || H5Idec_ref(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
+  bool close() {
+    if (id_ < 0) return true;
+    const std::lock_guard lock(library_mutex());
+    return H5Idec_ref(std::exchange(id_, H5I_INVALID_HID)) >= 0;
+  }
 
  private:
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// While one lives, libhdf5 prints nothing. What calls libhdf5 has one.
-class Silence {
+/// While one lives, no other thread calls libhdf5, and it prints nothing. What calls libhdf5 has one.
+class Turn {
  public:
-  Silence() {
+  Turn() {
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
+  ~Turn() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
 
  private:
+  const std::lock_guard<std::recursive_mutex> lock_{library_mutex()};
   H5E_auto2_t print_ = nullptr;
   void* data_ = nullptr;
 };

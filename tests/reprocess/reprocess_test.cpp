@@ -1,0 +1,319 @@
+// scarf reprocess from outside: results, records, failures, crashes, and several processes at once.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "core/text.h"
+#include "scarf/io.h"
+#include "tests/tools/event_fixtures.h"
+#include "tests/tools/temporary_folder.h"
+
+namespace scarf::tools {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr SensorSize kSensor{64, 48};
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+class Reprocess : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.path(name); }
+
+  void record(const std::string& name, uint64_t seed, size_t count = 3000) {
+    fs::create_directories(fs::path(path(name)).parent_path());
+    auto sink = *create_events(path(name), seed % 2 == 0 ? "text" : "evt3", kSensor);
+    ASSERT_TRUE(sink->write(random_events(count, kSensor, seed)).ok());
+    ASSERT_TRUE(sink->finish().ok());
+  }
+  // Six recordings in two folders, and two files that are none.
+  void record_some(size_t count = 3000) {
+    for (uint64_t i = 0; i < 6; ++i) record(text("in/", i < 3 ? "a/" : "b/", i, ".raw"), i, count);
+    write_text(path("in/README.md"), "Once upon a time\nthere was a camera\n");
+    write_text(path("in/a/notes.json"), "{}\n");
+  }
+
+  Outcome shell(const std::string& command) const {
+    const int status =
+        std::system(text("exec >", path("stdout"), " 2>", path("stderr"), "; ", command).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(path("stdout")),
+            content_of(path("stderr"))};
+  }
+  Outcome run(const std::string& arguments) const {
+    return shell(text("exec ", SCARF_PROGRAM, " reprocess ", arguments));
+  }
+  std::string in_to(const std::string& out, const std::string& more = "--cpu") const {
+    return text(path("in"), " -o ", path(out), " ", more);
+  }
+
+  static Json json_in(const std::string& file) { return Json::parse(content_of(file), nullptr, false); }
+  // Every record below a folder, without what depends on the clock, and on who computed it.
+  std::map<std::string, Json> records(const std::string& out, bool with_device = true) const {
+    std::map<std::string, Json> found;
+    for (const auto& entry : fs::recursive_directory_iterator(path(out))) {
+      const std::string name = entry.path().lexically_relative(path(out)).generic_string();
+      if (!name.ends_with(".json") || name.starts_with("summary")) continue;
+      Json json = json_in(entry.path().string());
+      EXPECT_TRUE(json.contains("timings")) << name;
+      json.erase("timings");
+      if (!with_device) json.erase("device");
+      found[name] = json;
+    }
+    return found;
+  }
+  std::vector<std::string> unfinished(const std::string& out) const {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(path(out))) {
+      if (entry.path().string().ends_with(".tmp")) found.push_back(entry.path().string());
+    }
+    return found;
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(Reprocess, MirrorsTheTreeWithPicturesAndRecords) {
+  record_some();
+  const Outcome outcome = run(in_to("out"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("skipped: README.md: not a recording"));
+  EXPECT_EQ(records("out").size(), 6u);
+  EXPECT_TRUE(unfinished("out").empty());
+  EXPECT_TRUE(fs::exists(path("out/b/4.raw.png")));
+  const Json record = json_in(path("out/a/0.raw.json"));
+  const Outcome digest = shell(text(SCARF_PROGRAM, " digest --cpu ", path("in/a/0.raw")));
+  EXPECT_EQ(digest.out,
+            text("state ", record["state"].get<std::string>(), "\nimage ", record["image"].get<std::string>(),
+                 "\nevents ", record["events"].get<std::string>(), "\n"));
+  const Outcome sum = shell(text("sha256sum ", path("in/a/0.raw")));
+  EXPECT_EQ(sum.out.substr(0, 64), record["input_sha256"]);
+  EXPECT_EQ(record["counts"]["events"], 3000);
+  EXPECT_EQ(json_in(path("out/summary.json"))["totals"]["skipped"], 2);
+}
+
+TEST_F(Reprocess, RecordsDependOnNeitherJobsNorTheDevice) {
+  record_some();
+  ASSERT_EQ(run(in_to("one", "--jobs 1")).exit_code, 0);
+  ASSERT_EQ(run(in_to("two", "--jobs 2 --batch random:1")).exit_code, 0);
+  ASSERT_EQ(run(in_to("cpu", "--jobs 2 --cpu")).exit_code, 0);
+  EXPECT_EQ(records("one"), records("two"));
+  EXPECT_EQ(records("one", false), records("cpu", false));
+}
+
+TEST_F(Reprocess, ARecipeHasSeveralOutputsAndInstantsOfASideFile) {
+  record("in/a.raw", 1);
+  record("in/b.raw", 3);
+  write_text(path("in/a.times"), "# seconds\nx 1.01\nx 1.02\n");
+  write_text(path("in/b.times"), "x 1.03\n");
+  write_text(path("recipe.toml"),
+             "representation = \"eros\"\nkernel = 5\noutput = [\".frames/\", \".png\", \".avi\"]\n"
+             "at-times = \"{stem}.times\"\ntimes-column = 2\ntimes-unit = \"s\"\n"
+             "[[input]]\nmatch = \"*.times\"\nskip = true\n");
+  const Outcome outcome = run(in_to("out", "--cpu --recipe " + path("recipe.toml")));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(path("out/a.raw.frames/frame_000001.png")));
+  EXPECT_FALSE(fs::exists(path("out/b.raw.frames/frame_000001.png")));
+  EXPECT_TRUE(fs::exists(path("out/a.raw.avi")) && fs::exists(path("out/b.raw.png")));
+  EXPECT_EQ(json_in(path("out/a.raw.json"))["counts"]["frames"], 2);
+}
+
+TEST_F(Reprocess, BadInputsAreToldAndTheRestGoesOn) {
+  record_some();
+  write_text(path("in/a/corrupt.raw"), "% format EVT3;height=720;width=huge\n% end\n");
+  fs::create_symlink("nowhere", path("in/b/unreadable.raw"));
+  const Outcome outcome = run(in_to("out", "--cpu --keep-going"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("failed: a/corrupt.raw: "));
+  EXPECT_THAT(outcome.out, HasSubstr("failed: b/unreadable.raw: "));
+  EXPECT_EQ(records("out").size(), 6u);
+  const Outcome stopped = run(in_to("stopped"));
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_GT(json_in(path("stopped/summary.json"))["totals"]["not tried"], 0);
+}
+
+TEST_F(Reprocess, AListMustNameRecordings) {
+  record_some();
+  write_text(path("list"), "in/a/0.raw\nin/README.md\n");
+  const Outcome outcome = run(text(path("list"), " -o ", path("out"), " --cpu --keep-going"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("failed: in/README.md: "));
+  EXPECT_TRUE(fs::exists(path("out/in/a/0.raw.json")));
+}
+
+TEST_F(Reprocess, AFullDiskIsToldAndLeavesNothingBehind) {
+  record_some();
+  // A limit on the size of files stands in for the disk.
+  const Outcome outcome = shell(text("(trap '' XFSZ; ulimit -f 0; exec ", SCARF_PROGRAM, " reprocess ",
+                                     in_to("out", "--cpu --keep-going"), " 2>/dev/null) | cat"));
+  EXPECT_THAT(outcome.out, HasSubstr("failed: a/0.raw: "));
+  EXPECT_TRUE(records("out").empty());
+  EXPECT_TRUE(unfinished("out").empty());
+  const Outcome resumed = run(in_to("out", "--cpu --resume"));
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(records("out").size(), 6u);
+}
+
+TEST_F(Reprocess, OneCorruptTimeDoesNotFillTheDisk) {
+  fs::create_directory(path("in"));
+  write_text(path("in/a.txt"), "64 48\n0.1 1 1 1\n9000000.0 1 1 1\n");
+  write_text(path("recipe.toml"), "output = \".frames/\"\n");
+  const Outcome outcome = run(in_to("out", text("--cpu --max-frames 100 --recipe ", path("recipe.toml"))));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("--max-frames"));
+  EXPECT_FALSE(fs::exists(path("out/a.txt.frames")));
+}
+
+TEST_F(Reprocess, ResumeKeepsWhatIsFinished) {
+  record_some();
+  ASSERT_EQ(run(in_to("out")).exit_code, 0);
+  EXPECT_EQ(run(in_to("out")).exit_code, 2);  // would write over results
+  const auto inode = [&](const std::string& name) {
+    struct stat status {};
+    EXPECT_EQ(stat(path(name).c_str(), &status), 0);
+    return status.st_ino;
+  };
+  const auto kept = inode("out/a/1.raw.json");
+  const auto before = records("out");
+  fs::remove(path("out/a/0.raw.png"));
+  record("in/b/3.raw", 9);  // another content, later than its record
+  ASSERT_EQ(run(in_to("out", "--cpu --resume")).exit_code, 0);
+  EXPECT_EQ(inode("out/a/1.raw.json"), kept);
+  EXPECT_TRUE(fs::exists(path("out/a/0.raw.png")));
+  const auto after = records("out");
+  EXPECT_NE(after.at("b/3.raw.json"), before.at("b/3.raw.json"));
+  EXPECT_EQ(after.at("a/0.raw.json"), before.at("a/0.raw.json"));
+  const Json totals = json_in(path("out/summary.json"))["totals"];
+  EXPECT_EQ(totals["done"], 2);
+  EXPECT_EQ(totals["finished before"], 4);
+}
+
+TEST_F(Reprocess, VerifyFindsAWrongDigest) {
+  record_some();
+  const Outcome good = run(in_to("out", "--jobs 2 --verify 0.5 --seed 3"));
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("3 recordings (share 0.5, seed 3), 3 identical"));
+  Json record = json_in(path("out/a/1.raw.json"));
+  record["state"] = std::string(64, '0');
+  write_text(path("out/a/1.raw.json"), record.dump());
+  const Outcome bad = run(in_to("out", "--cpu --resume --verify 1"));
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.out, HasSubstr("check differs: a/1.raw: on the CPU reference differ: state"));
+}
+
+TEST_F(Reprocess, KilledAtAnyMomentItResumesToTheSameResults) {
+  record_some(40'000);
+  write_text(path("recipe.toml"), "output = [\".png\", \".frames/\"]\nevery = 4000\n");
+  const std::string more = text("--cpu --jobs 2 --resume --recipe ", path("recipe.toml"));
+  ASSERT_EQ(run(in_to("whole", more)).exit_code, 0);
+  std::mt19937_64 random(7);
+  std::map<std::string, ino_t> finished;
+  for (int kill_number = 0; kill_number < 20; ++kill_number) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDOUT_FILENO);
+      dup2(nowhere, STDERR_FILENO);
+      execl("/bin/sh", "sh", "-c", text("exec ", SCARF_PROGRAM, " reprocess ", in_to("out", more)).c_str(),
+            nullptr);
+      _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 + random() % 150));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    if (!fs::exists(path("out"))) continue;
+    for (const auto& [name, record] : records("out")) {
+      struct stat status {};
+      ASSERT_EQ(stat(path("out/" + name).c_str(), &status), 0);
+      const auto [at, fresh] = finished.try_emplace(name, status.st_ino);
+      EXPECT_EQ(at->second, status.st_ino) << name << " was done again";
+      for (const Json& output : record["outputs"]) {
+        const std::string place =
+            path("out/" + record["input"].get<std::string>() + output.get<std::string>());
+        EXPECT_TRUE(fs::exists(place)) << place;
+        if (place.ends_with('/')) {
+          EXPECT_TRUE(fs::exists(place + "frames.csv")) << place;
+        }
+      }
+    }
+  }
+  ASSERT_EQ(run(in_to("out", more)).exit_code, 0);
+  EXPECT_EQ(records("out"), records("whole"));
+  EXPECT_TRUE(unfinished("out").empty());
+}
+
+TEST_F(Reprocess, ShardsDoEverythingOnce) {
+  record_some();
+  size_t done = 0;
+  for (const char* shard : {"1/3", "2/3", "3/3"}) {
+    ASSERT_EQ(run(in_to("out", text("--cpu --shard ", shard))).exit_code, 0) << shard;
+    const std::string name = text("out/summary.", shard[0], "-of-3.json");
+    done += json_in(path(name))["totals"]["done"].get<size_t>();
+  }
+  EXPECT_EQ(done, 6u);
+  EXPECT_EQ(records("out").size(), 6u);
+}
+
+TEST_F(Reprocess, RanksOfAnMpiJobShareTheWork) {
+  if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "mpirun is not installed";
+  record_some();
+  ASSERT_EQ(run(in_to("alone")).exit_code, 0);
+  const Outcome outcome = shell(text("mpirun --allow-run-as-root --oversubscribe -n 4 ", SCARF_PROGRAM,
+                                     " reprocess ", in_to("out", "--cpu --jobs 1")));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(records("out"), records("alone"));
+#ifdef SCARF_HAS_MPI
+  EXPECT_THAT(outcome.out, HasSubstr("each of 4 processes"));
+  EXPECT_EQ(json_in(path("out/summary.json"))["totals"]["done"], 6);
+#else
+  EXPECT_TRUE(fs::exists(path("out/summary.4-of-4.json")));
+#endif
+}
+
+TEST_F(Reprocess, TasksOfASlurmArrayShareTheWork) {
+  if (std::system("command -v slurmctld slurmd munged sbatch >/dev/null") != 0) {
+    GTEST_SKIP() << "slurmctld, slurmd, munged or sbatch is not installed (slurm-wlm)";
+  }
+  if (geteuid() != 0) GTEST_SKIP() << "the daemons of Slurm need root";
+  record_some();
+  const Outcome outcome = shell(text("bash ", SCARF_SLURM_SCRIPT, " ", path("slurm"), " '", SCARF_PROGRAM,
+                                     " reprocess ", in_to("out", "--cpu --jobs 1"), "'"));
+  if (outcome.exit_code == 77) GTEST_SKIP() << "Slurm does not start here: " << outcome.err;
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(records("out").size(), 6u);
+  for (const char* shard : {"1", "2", "3"}) {
+    EXPECT_TRUE(fs::exists(path(text("out/summary.", shard, "-of-3.json")))) << shard;
+  }
+}
+
+TEST_F(Reprocess, BadUsageExitsWithTwo) {
+  record_some();
+  write_text(path("recipe.toml"), "kernal = 3\n");
+  for (const std::string& more :
+       {std::string("--shard 0/3"), std::string("--jobs 0"), std::string("--verify 2"),
+        std::string("--seed 1"), text("--recipe ", path("recipe.toml"))}) {
+    EXPECT_EQ(run(in_to("out", "--cpu " + more)).exit_code, 2) << more;
+    EXPECT_FALSE(fs::exists(path("out"))) << more;
+  }
+  EXPECT_EQ(run(path("missing") + " --cpu -o " + path("out")).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace scarf::tools

@@ -1,0 +1,112 @@
+#include "tools/reprocess/compute.h"
+
+#include <utility>
+
+#include "core/text.h"
+#include "scarf/digest.h"
+#include "tools/play.h"
+#include "tools/read_ahead.h"
+#include "tools/renderer.h"
+
+namespace scarf::tools::reprocess {
+namespace {
+
+// Hands on to a writer that somebody else owns, or to none.
+class BorrowedWriter final : public FrameWriter {
+ public:
+  explicit BorrowedWriter(FrameWriter* writer) : writer_(writer) {}
+  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
+    return writer_ == nullptr ? Result<void>() : writer_->write(frame, picture);
+  }
+  Result<void> finish() override { return writer_ == nullptr ? Result<void>() : writer_->finish(); }
+
+ private:
+  FrameWriter* const writer_;
+};
+
+Result<bool> pictures_matter(const Options& options) {
+  if (options.stream.representation == "scarf") return false;
+  const auto parameters = parameters_of(options.stream);
+  if (!parameters) return parameters.error();
+  return query_changes_state(*parameters);
+}
+
+FrameOptions with_side_file(FrameOptions frames, const std::string& recording) {
+  if (!frames.times_file.empty()) frames.times_file = side_file(frames.times_file, recording);
+  return frames;
+}
+
+bool has_sequence(const Options& options) {
+  for (const std::string& output : options.outputs) {
+    const auto kind = output_kind("recording" + output);
+    if (kind && *kind != OutputKind::image) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string Machine::name() const {
+  return context ? context->device().name : "CPU reference";
+}
+
+Result<Computed> compute(OpenRecording recording, const std::string& path, const Options& options,
+                         const Machine& machine, FrameWriter* writer, Meter& meter) {
+  const auto matter = pictures_matter(options);
+  if (!matter) return matter.error();
+  std::unique_ptr<Instants> instants;
+  if (has_sequence(options) && (writer != nullptr || *matter)) {
+    auto made = make_instants(with_side_file(options.frames, path), OutputKind::folder);
+    if (!made) return made.error();
+    instants = at_most(*std::move(made), options.frames.max_frames);
+  }
+  auto implementation = machine.context ? make_gpu(machine.context, options.stream, recording.sensor)
+                                        : make_reference(options.stream, recording.sensor);
+  if (!implementation) return implementation.error();
+
+  Computed computed;
+  computed.format = recording.source->format();
+  computed.sensor = recording.sensor;
+  std::vector<Shown> shown;
+  shown.push_back({std::move(implementation->representation), ""});
+  std::vector<std::unique_ptr<FrameProduct>> products;
+  products.push_back(picture_product(shown, std::make_unique<BorrowedWriter>(writer)));
+  const auto renderer = make_live_renderer(shown, std::move(products));
+  EventDigest events;
+  {
+    ReadAhead source(std::move(recording.source), [&](std::span<const Event> batch) {
+      for (const Event& e : batch) events.add(e);
+    });
+    const auto push = [&](std::span<const Event> batch) -> Result<void> {
+      computed.last_time = batch.back().t;
+      meter.bytes = source.bytes_read();
+      meter.events += batch.size();
+      return renderer->push(batch);
+    };
+    const auto ask = [&](const Frame& frame) {
+      ++computed.frames;
+      return renderer->ask(frame);
+    };
+    const auto played = play(source, {.batches = machine.batches, .instants = instants.get()},
+                             {.events = push, .frame = ask});
+    if (!played) return played.error();
+    if (auto r = renderer->finish(); !r) return r.error();
+    computed.report = source.report();
+  }
+
+  Representation& representation = *shown.front().representation;
+  const auto state = representation.state().wait();
+  if (!state) return state.error();
+  auto image = representation.u8_image().wait();
+  if (!image) return image.error();
+  auto filters = representation.filter_reports().wait();
+  if (!filters) return filters.error();
+  Digest of_state;
+  of_state.add(*state);
+  computed.digests = {of_state.hex(), image_digest(*image), events.hex()};
+  computed.image = *std::move(image);
+  computed.filters = *std::move(filters);
+  return computed;
+}
+
+}  // namespace scarf::tools::reprocess

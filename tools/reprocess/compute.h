@@ -1,0 +1,58 @@
+// One recording, played through one representation: its pictures on their way to a writer, and its digests.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scarf/filter.h"
+#include "scarf/gpu.h"
+#include "scarf/image.h"
+#include "scarf/io.h"
+#include "tools/frame_writer.h"
+#include "tools/reprocess/settings.h"
+
+namespace scarf::tools::reprocess {
+
+/// Who computes; may be shared by any number of threads.
+struct Machine {
+  std::shared_ptr<GpuContext> context;  ///< none: the CPU reference
+  BatchSizes batches = BatchSizes::fixed(kDefaultBatch);
+
+  std::string name() const;
+};
+
+/// How far a recording is, for a progress display.
+struct Meter {
+  std::atomic<uint64_t> bytes = 0;  ///< read of its input
+  std::atomic<uint64_t> events = 0;
+};
+
+struct Digests {
+  std::string state;
+  std::string image;  ///< of the final picture
+  std::string events;
+
+  friend bool operator==(const Digests&, const Digests&) = default;
+};
+
+struct Computed {
+  Digests digests;
+  Image<uint8_t> image;   ///< the final picture
+  int64_t last_time = 0;  ///< of the last event, microseconds
+  std::string format;
+  SensorSize sensor;
+  ReadReport report;
+  std::vector<FilterReport> filters;
+  uint64_t frames = 0;
+};
+
+/// `recording` as open_recording returned it, and `path` where it came from. Without a writer the pictures
+/// are made only where a later digest depends on them. Errors: whatever reader, representation or writer say;
+/// bad_input if more frames than allowed are due.
+Result<Computed> compute(OpenRecording recording, const std::string& path, const Options& options,
+                         const Machine& machine, FrameWriter* writer, Meter& meter);
+
+}  // namespace scarf::tools::reprocess

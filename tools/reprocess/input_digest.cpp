@@ -1,0 +1,67 @@
+#include "tools/reprocess/input_digest.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "core/little_endian.h"
+#include "core/text.h"
+#include "scarf/digest.h"
+
+namespace scarf::tools::reprocess {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kPiece = 1 << 20;  // bytes
+
+Result<void> add_file(Digest& digest, const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Error{ErrorCode::io, text("cannot open ", path.string())};
+  std::vector<uint8_t> piece(kPiece);
+  while (file) {
+    file.read(reinterpret_cast<char*>(piece.data()), kPiece);
+    digest.add(std::span(piece).first(static_cast<size_t>(file.gcount())));
+  }
+  if (file.bad()) return Error{ErrorCode::io, text("cannot read ", path.string())};
+  return {};
+}
+
+Result<void> add_folder(Digest& digest, const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored))
+      names.push_back(entry->path().lexically_relative(folder).generic_string());
+  }
+  if (error) return Error{ErrorCode::io, text("cannot list ", folder.string(), ": ", error.message())};
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
+    std::vector<uint8_t> head(name.begin(), name.end());
+    head.push_back(0);
+    const uint64_t size = fs::file_size(folder / name, error);
+    if (error)
+      return Error{ErrorCode::io, text("cannot read ", (folder / name).string(), ": ", error.message())};
+    append_little_endian(head, size);
+    digest.add(head);
+    if (auto r = add_file(digest, folder / name); !r) return r;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::string> input_digest(const std::string& path) {
+  Digest digest;
+  std::error_code ignored;
+  const auto added = fs::is_directory(path, ignored) ? add_folder(digest, path) : add_file(digest, path);
+  if (!added) return added.error();
+  return digest.hex();
+}
+
+}  // namespace scarf::tools::reprocess

@@ -1,0 +1,132 @@
+#include "tools/reprocess/recipe.h"
+
+#include <fnmatch.h>
+
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#define TOML_HEADER_ONLY 1
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include "core/text.h"
+
+namespace scarf::tools::reprocess {
+namespace {
+
+constexpr std::string_view kRules = "input";
+constexpr std::string_view kMatch = "match";
+
+Error at_line(const std::string& path, const toml::source_region& source, const std::string& what) {
+  return {ErrorCode::illegal_parameter, text(path, " line ", source.begin.line, ": ", what)};
+}
+
+// A value as the word that an option takes.
+std::optional<std::string> word_of(const toml::node& node) {
+  if (const auto value = node.value_exact<std::string>()) return *value;
+  if (const auto value = node.value_exact<int64_t>()) return text(*value);
+  if (const auto value = node.value_exact<double>()) return text(*value);
+  if (const auto value = node.value_exact<bool>()) return *value ? "true" : "false";
+  return std::nullopt;
+}
+
+Result<std::vector<std::string>> words_of(const std::string& path, std::string_view name,
+                                          const toml::node& node) {
+  std::vector<std::string> words;
+  const auto add = [&](const toml::node& one) -> Result<void> {
+    const auto word = word_of(one);
+    if (!word) {
+      return at_line(path, one.source(), text(name, " is neither text, a number, true or false, nor a list"));
+    }
+    words.push_back(*word);
+    return {};
+  };
+  if (const toml::array* list = node.as_array()) {
+    for (const toml::node& one : *list) {
+      if (auto r = add(one); !r) return r.error();
+    }
+    return words;
+  }
+  if (auto r = add(node); !r) return r.error();
+  return words;
+}
+
+// Names are checked here, so that the error can tell the line; values need all that the settings end up with.
+Result<Settings> settings_of(const std::string& path, const toml::table& table, std::string_view besides) {
+  Settings settings;
+  for (const auto& [key, node] : table) {
+    const std::string name(key.str());
+    if (name == besides) continue;
+    auto words = words_of(path, name, node);
+    if (!words) return words.error();
+    settings[name] = *std::move(words);
+  }
+  return settings;
+}
+
+Result<Recipe::Rule> rule_of(const std::string& path, const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return at_line(path, node.source(), "input is no table; write [[input]]");
+  const auto match = (*table)[kMatch].value<std::string>();
+  if (!match || match->empty()) {
+    return at_line(path, table->source(), "[[input]] has no match; add one, such as match = \"*.raw\"");
+  }
+  auto settings = settings_of(path, *table, kMatch);
+  if (!settings) return settings.error();
+  return Recipe::Rule{*match, *std::move(settings)};
+}
+
+// Whether the settings can be read, by themselves or on top of others.
+Result<void> check(const std::string& path, const toml::source_region& source, const Settings& settings) {
+  const auto options = parse_settings(settings);
+  return options ? Result<void>() : at_line(path, source, options.error().message);
+}
+
+}  // namespace
+
+Settings Recipe::for_recording(const std::string& relative) const {
+  Settings all = settings;
+  const std::string last = relative.substr(relative.find_last_of('/') + 1);
+  for (const Rule& rule : rules) {
+    const std::string& subject = rule.match.find('/') == std::string::npos ? last : relative;
+    if (fnmatch(rule.match.c_str(), subject.c_str(), 0) == 0) lay_over(all, rule.settings);
+  }
+  return all;
+}
+
+Recipe default_recipe() {
+  return {.settings = {{"output", {".png"}}, {"representation", {"scarf"}}}, .rules = {}};
+}
+
+Result<Recipe> read_recipe(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file || file.bad()) return Error{ErrorCode::io, text("cannot read the recipe ", path)};
+  const toml::parse_result parsed = toml::parse(content);
+  if (!parsed) return at_line(path, parsed.error().source(), std::string(parsed.error().description()));
+  const toml::table& table = parsed.table();
+
+  Recipe recipe = default_recipe();
+  const auto settings = settings_of(path, table, kRules);
+  if (!settings) return settings.error();
+  lay_over(recipe.settings, *settings);
+  if (auto r = check(path, table.source(), recipe.settings); !r) return r.error();
+
+  const toml::node* rules = table.get(kRules);
+  if (rules == nullptr) return recipe;
+  const toml::array* list = rules->as_array();
+  if (list == nullptr) return at_line(path, rules->source(), "input is one table; write [[input]]");
+  for (const toml::node& node : *list) {
+    auto rule = rule_of(path, node);
+    if (!rule) return rule.error();
+    Settings together = recipe.settings;
+    lay_over(together, rule->settings);
+    if (auto r = check(path, node.source(), together); !r) return r.error();
+    recipe.rules.push_back(*std::move(rule));
+  }
+  return recipe;
+}
+
+}  // namespace scarf::tools::reprocess

@@ -1,0 +1,38 @@
+// The record of a finished recording: a JSON file beside its results.
+//
+// It depends only on the input, the recipe, the program and the device, but for "timings".
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/reprocess/compute.h"
+#include "tools/reprocess/job.h"
+
+namespace scarf::tools::reprocess {
+
+/// What a record needs to be compared with later.
+struct Record {
+  std::string input_sha256;
+  uint64_t input_bytes = 0;
+  Settings settings;
+  Digests digests;
+  std::vector<std::string> outputs;  ///< what was added to the name of the recording
+  uint64_t events = 0;
+  uint64_t frames = 0;
+};
+
+struct Timings {
+  std::string started;  ///< UTC, as ISO 8601
+  double seconds = 0;
+};
+
+/// The content of a record.
+std::string record_text(const Record& record, const Job& job, const Computed& computed,
+                        const std::string& device, const Timings& timings);
+
+/// Errors: io; bad_input if the file is no such record.
+Result<Record> read_record(const std::string& path);
+
+}  // namespace scarf::tools::reprocess

@@ -1,0 +1,133 @@
+#include "tools/reprocess/settings.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "core/text.h"
+#include "tools/read_options.h"
+#include "tools/reprocess/result_place.h"
+
+namespace scarf::tools::reprocess {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 4> kInstants = {"rate", "every", "at", "at-times"};
+
+Error illegal(const std::string& message) {
+  return {ErrorCode::illegal_parameter, message};
+}
+
+std::string known_settings(const CLI::App& app) {
+  std::string names;
+  for (const CLI::Option* option : app.get_options()) {
+    names += text(names.empty() ? "" : ", ", option->get_name().substr(2));
+  }
+  return names;
+}
+
+Result<void> check_output(const FrameOptions& frames, const std::string& output) {
+  const std::string name = output.substr(0, output.size() - (output.ends_with('/') ? 1 : 0));
+  if (name.empty() || name.find('/') != name.npos) {
+    return illegal(text("output '", output,
+                        "' is not something to add to a recording's name, such as .png, .mp4 or .frames/"));
+  }
+  if (name == kRecordSuffix || name.ends_with(kUnfinishedSuffix)) {
+    return illegal(text("output '", output, "' is taken by the program itself; choose another name"));
+  }
+  const auto kind = output_kind("recording" + output);
+  if (!kind) return kind.error();
+  if (*kind == OutputKind::image) return {};  // shows the end, whatever the others show
+  if (*kind == OutputKind::video) return check_frames(frames, output, *kind);
+  FrameOptions without_speed = frames;
+  without_speed.video_fps.reset();  // of a video beside it
+  return check_frames(without_speed, output, *kind);
+}
+
+// Settings that no output makes use of are mistakes.
+Result<void> check_use(const Options& options) {
+  bool sequence = false;
+  bool video = false;
+  for (const std::string& output : options.outputs) {
+    const OutputKind kind = *output_kind("recording" + output);
+    sequence |= kind != OutputKind::image;
+    video |= kind == OutputKind::video;
+  }
+  if (options.frames.timed() && !sequence) {
+    return illegal(
+        "rate, every and at-times are used by outputs with several frames only; add output = \".frames/\" or "
+        "\".mp4\"");
+  }
+  if (options.frames.video_fps && !video) {
+    return illegal("video-fps is used by videos only; add output = \".mp4\", or leave it out");
+  }
+  return {};
+}
+
+}  // namespace
+
+void lay_over(Settings& settings, const Settings& more) {
+  const auto is_instant = [&](std::string_view name) { return more.contains(std::string(name)); };
+  if (std::any_of(kInstants.begin(), kInstants.end(), is_instant)) {
+    for (const std::string_view name : kInstants) settings.erase(std::string(name));
+    if (!more.contains("at-times")) {
+      settings.erase("times-column");
+      settings.erase("times-unit");
+    }
+  }
+  for (const auto& [name, words] : more) settings[name] = words;
+}
+
+Result<std::unique_ptr<Options>> parse_settings(const Settings& settings) {
+  auto options = std::make_unique<Options>();
+  CLI::App& app = options->app;
+  app.set_help_flag();
+  add_read_options(app, options->stream.read);
+  add_representation_options(app, options->stream);
+  add_frame_options(app, options->frames, "");
+  app.add_option("--output", options->outputs);
+  app.add_flag("--skip", options->skip);
+
+  std::vector<std::string> arguments;
+  for (const auto& [name, words] : settings) {
+    if (app.get_option_no_throw("--" + name) == nullptr) {
+      return illegal(text("'", name, "' is no setting; there are ", known_settings(app)));
+    }
+    for (const std::string& word : words) arguments.push_back(text("--", name, "=", word));
+  }
+  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& e) {
+    return illegal(e.what());
+  }
+  for (const std::string& output : options->outputs) {
+    if (auto r = check_output(options->frames, output); !r) return r.error();
+  }
+  if (auto r = check_use(*options); !r) return r.error();
+  return options;
+}
+
+std::string side_file(const std::string& name, const std::string& recording) {
+  const fs::path path = fs::path(recording).lexically_normal();
+  const bool ends_in_slash = path.filename().empty();
+  const fs::path file = ends_in_slash ? path.parent_path() : path;
+  std::error_code ignored;
+  const fs::path folder = fs::is_directory(file, ignored) ? file : file.parent_path();
+  std::string filled = name;
+  for (const auto& [word, value] :
+       {std::pair{"{path}", file.string()}, std::pair{"{folder}", folder.string()},
+        std::pair{"{name}", file.filename().string()}, std::pair{"{stem}", file.stem().string()}}) {
+    for (size_t at = 0; (at = filled.find(word, at)) != filled.npos; at += value.size()) {
+      filled.replace(at, std::string_view(word).size(), value);
+    }
+  }
+  // What begins with {path} or {folder} is complete already.
+  const bool complete = name.starts_with("{path}") || name.starts_with("{folder}");
+  return complete ? filled : (folder / filled).string();
+}
+
+}  // namespace scarf::tools::reprocess

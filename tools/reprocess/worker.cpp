@@ -1,0 +1,252 @@
+#include "tools/reprocess/worker.h"
+
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <future>
+#include <iomanip>
+#include <new>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "tools/pictures.h"
+#include "tools/reprocess/input_digest.h"
+#include "tools/reprocess/record.h"
+#include "tools/reprocess/result_place.h"
+#include "tools/write_behind.h"
+
+namespace scarf::tools::reprocess {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string record_path(const std::string& out, const Job& job) {
+  return (fs::path(out) / text(job.relative, kRecordSuffix)).string();
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::ostringstream out;
+  out << std::put_time(&parts, "%FT%TZ");
+  return out.str();
+}
+
+// Frames to several outputs at once.
+class Several final : public FrameWriter {
+ public:
+  explicit Several(std::vector<std::unique_ptr<FrameWriter>> writers) : writers_(std::move(writers)) {}
+
+  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
+    for (const auto& writer : writers_) {
+      if (auto r = writer->write(frame, picture); !r) return r;
+    }
+    return {};
+  }
+  Result<void> finish() override {
+    for (const auto& writer : writers_) {
+      if (auto r = writer->finish(); !r) return r;
+    }
+    return {};
+  }
+
+ private:
+  const std::vector<std::unique_ptr<FrameWriter>> writers_;
+};
+
+// Outputs are told apart by the names that they will have.
+OutputKind kind_of(const std::string& suffix) {
+  return *output_kind("recording" + suffix);  // parse_settings has let it pass
+}
+
+// The files of the outputs: beside an array comes the list of its frames.
+std::vector<std::string> files_of(const std::vector<std::string>& outputs) {
+  std::vector<std::string> files = outputs;
+  for (const std::string& suffix : outputs) {
+    if (kind_of(suffix) == OutputKind::npy) {
+      files.push_back(
+          std::filesystem::path("recording" + suffix).replace_extension(".csv").string().substr(9));
+    }
+  }
+  return files;
+}
+
+Result<std::unique_ptr<FrameWriter>> sequence_writers(const Options& options, const ResultPlace& place) {
+  std::vector<std::unique_ptr<FrameWriter>> writers;
+  for (const std::string& suffix : options.outputs) {
+    if (kind_of(suffix) == OutputKind::image) continue;
+    auto writer = make_frame_writer(place.working(suffix), kind_of(suffix), options.frames.shown_fps());
+    if (!writer) return writer.error();
+    writers.push_back(std::make_unique<WriteBehind>(*std::move(writer)));
+  }
+  return std::unique_ptr<FrameWriter>(std::make_unique<Several>(std::move(writers)));
+}
+
+Result<void> write_final_pictures(const Options& options, const ResultPlace& place,
+                                  const Computed& computed) {
+  const Frame frame{computed.last_time, computed.report.events};
+  for (const std::string& suffix : options.outputs) {
+    if (kind_of(suffix) != OutputKind::image) continue;
+    auto writer = make_frame_writer(place.working(suffix), OutputKind::image, options.frames.shown_fps());
+    if (!writer) return writer.error();
+    if (auto r = (*writer)->write(frame, as_picture(computed.image)); !r) return r;
+    if (auto r = (*writer)->finish(); !r) return r;
+  }
+  return {};
+}
+
+Outcome outcome_of(const Job& job, Status status) {
+  Outcome outcome;
+  outcome.relative = job.relative;
+  outcome.status = status;
+  outcome.bytes = job.bytes;
+  return outcome;
+}
+
+Outcome failed(const Job& job, const Error& error) {
+  Outcome outcome = outcome_of(job, Status::failed);
+  outcome.message = error.message;
+  outcome.code = error.code;
+  return outcome;
+}
+
+Result<std::unique_ptr<Options>> options_of(const Job& job) {
+  auto options = parse_settings(job.settings);
+  if (options) (*options)->stream.file = job.path;
+  return options;
+}
+
+// What a limit does not cut is the same with any limit.
+Settings without_limit(Settings settings) {
+  settings.erase("max-frames");
+  return settings;
+}
+
+// Whether an earlier run has finished the job: the record is there with the same recipe, so are the outputs
+// that it names, and the input is the same. That is believed of an input of the same size which is older than
+// the record; another one is read.
+std::optional<Record> finished(const Job& job, const std::string& out) {
+  const std::string path = record_path(out, job);
+  const auto record = read_record(path);
+  if (!record || record->input_bytes != job.bytes) return std::nullopt;
+  if (without_limit(record->settings) != without_limit(job.settings)) return std::nullopt;
+  std::error_code error;
+  for (const std::string& suffix : record->outputs) {
+    if (!fs::exists(fs::path(out) / (job.relative + suffix), error)) return std::nullopt;
+  }
+  const bool folder = fs::is_directory(job.path, error);
+  const auto changed = fs::last_write_time(job.path, error);
+  if (error) return std::nullopt;
+  // The time of a folder does not tell of changes in its files.
+  if (!folder && changed < fs::last_write_time(path, error) && !error) return *record;
+  const auto digest = input_digest(job.path);
+  return digest && *digest == record->input_sha256 ? std::optional(*record) : std::nullopt;
+}
+
+Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter) {
+  const auto start = Clock::now();
+  const std::string started = utc_now();
+  if (workplace.resume) {
+    if (const auto record = finished(job, workplace.out)) {
+      Outcome kept = outcome_of(job, Status::kept);
+      kept.events = record->events;
+      kept.frames = record->frames;
+      return kept;
+    }
+  }
+  const auto options = options_of(job);
+  if (!options) return options.error();
+  if ((*options)->skip) {
+    Outcome skipped = outcome_of(job, Status::skipped);
+    skipped.message = "the recipe leaves it out";
+    return skipped;
+  }
+  auto recording = open_recording((*options)->stream);
+  if (!recording) {
+    if (recording.error().code != ErrorCode::unrecognised || job.listed) return recording.error();
+    Outcome skipped = outcome_of(job, Status::skipped);
+    skipped.message = "not a recording";
+    return skipped;
+  }
+  auto place = ResultPlace::claim(workplace.out, job.relative);
+  if (!place) return place.error();
+  const auto writer = sequence_writers(**options, *place);
+  if (!writer) return writer.error();
+  std::future<Result<std::string>> digest =
+      std::async(std::launch::async, [&job] { return input_digest(job.path); });
+  const auto computed =
+      compute(*std::move(recording), job.path, **options, workplace.machine, writer->get(), meter);
+  const auto input_sha256 = digest.get();
+  if (!computed) return computed.error();
+  if (!input_sha256) return input_sha256.error();
+  if (auto r = write_final_pictures(**options, *place, *computed); !r) return r.error();
+
+  const Record record{*input_sha256,     job.bytes,           job.settings,
+                      computed->digests, (*options)->outputs, computed->report.events,
+                      computed->frames};
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const std::string content =
+      record_text(record, job, *computed, workplace.machine.name(), {started, seconds()});
+  if (auto r = place->complete(files_of((*options)->outputs), content); !r) return r.error();
+  Outcome done = outcome_of(job, Status::done);
+  done.events = computed->report.events;
+  done.frames = computed->frames;
+  done.seconds = seconds();
+  return done;
+}
+
+// The names of the digests that differ.
+std::string differences(const Digests& a, const Digests& b) {
+  std::string names;
+  for (const auto& [name, equal] :
+       {std::pair{"state", a.state == b.state}, std::pair{"image", a.image == b.image},
+        std::pair{"events", a.events == b.events}}) {
+    if (!equal) names += text(names.empty() ? "" : ", ", name);
+  }
+  return names;
+}
+
+Result<Outcome> check(const Job& job, const Workplace& workplace, Meter& meter) {
+  const auto start = Clock::now();
+  const auto record = read_record(record_path(workplace.out, job));
+  if (!record) return record.error();
+  const auto options = options_of(job);
+  if (!options) return options.error();
+  auto recording = open_recording((*options)->stream);
+  if (!recording) return recording.error();
+  const Machine reference{nullptr, workplace.machine.batches};
+  const auto computed = compute(*std::move(recording), job.path, **options, reference, nullptr, meter);
+  if (!computed) return computed.error();
+  const std::string different = differences(record->digests, computed->digests);
+  Outcome outcome = outcome_of(job, different.empty() ? Status::identical : Status::differs);
+  if (!different.empty()) outcome.message = text("on the CPU reference differ: ", different);
+  outcome.events = computed->report.events;
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return outcome;
+}
+
+}  // namespace
+
+Outcome do_task(const Task& task, const Workplace& workplace, Meter& meter) {
+  try {  // an exception, of OpenCV or for memory, must not end the thread
+    const bool is_check = task.kind == Task::Kind::check;
+    auto outcome = is_check ? check(task.job, workplace, meter) : process(task.job, workplace, meter);
+    return outcome ? *std::move(outcome) : failed(task.job, outcome.error());
+  } catch (const std::bad_alloc&) {
+    return failed(task.job, {ErrorCode::out_of_memory, "out of memory; use fewer --jobs"});
+  } catch (const std::exception& e) {
+    return failed(task.job, {ErrorCode::bad_input, e.what()});
+  }
+}
+
+bool has_record(const std::string& out, const Job& job) {
+  std::error_code ignored;
+  return fs::exists(record_path(out, job), ignored);
+}
+
+}  // namespace scarf::tools::reprocess
