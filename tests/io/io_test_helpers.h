@@ -55,6 +55,17 @@ inline Bytes evt3_file(std::initializer_list<uint16_t> words, std::string_view m
   return with_words("% evt 3.0\n" + std::string(more_header) + "% end\n", words);
 }
 
+/// What is empty is left as it is.
+inline ReadOptions read_options(std::string stream, std::string columns = "", std::string time_unit = "",
+                                std::string format = "") {
+  ReadOptions options;
+  options.stream = std::move(stream);
+  options.columns = std::move(columns);
+  options.time_unit = std::move(time_unit);
+  options.format = std::move(format);
+  return options;
+}
+
 struct Recording {
   std::string format;
   std::optional<SensorSize> sensor;
@@ -100,6 +111,14 @@ inline ByteReader dripping(const Bytes& bytes, size_t step) {
     return count;
   };
   return ByteReader(read_some, 0);
+}
+
+/// The library without which this build cannot read the format; empty if it can.
+inline std::string missing_library(std::string_view format) {
+  for (const FormatInfo& info : formats()) {
+    if (info.name == format) return info.missing;
+  }
+  return "";
 }
 
 /// A file name of this test, removed at the end.
