@@ -183,7 +183,9 @@ void ArraySource::skip(size_t rows) {
 void ArraySource::end_early() {
   for (Array& array : arrays_) {
     const size_t rest = array.bytes.available().size();
-    if (rest < array.row_bytes) tally_.report.truncated_bytes += rest;
+    if (rest >= array.row_bytes) continue;
+    tally_.report.truncated_bytes += rest;
+    array.bytes.skip(rest);
   }
   tally_.note_damage(bytes_read(), text("the array ends after ", read_, " of ", rows_, " rows"));
 }

@@ -4,12 +4,13 @@
 #include <bit>
 #include <string>
 
-#include "archives.h"
 #include "io_test_helpers.h"
+#include "tests/support/archive_bytes.h"
 
 namespace scarf {
 namespace {
 
+using test::zip_file;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

@@ -1,13 +1,15 @@
 // Recordings of the Event-Camera Dataset, in folders and zip archives, and their frames.
 #include <gmock/gmock.h>
 
-#include "archives.h"
 #include "io_test_helpers.h"
 #include "scarf/frames.h"
+#include "tests/support/archive_bytes.h"
 
 namespace scarf {
 namespace {
 
+using test::png_file;
+using test::zip_file;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 

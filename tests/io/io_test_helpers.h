@@ -146,4 +146,30 @@ class TemporaryFile {
   std::string path_;
 };
 
+/// A folder of this test, removed with all that it holds at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() { std::filesystem::remove_all(path()); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path()); }
+
+  const std::string& path() const { return name_.path(); }
+  /// Writes a file; folders within its name are made.
+  void add(const std::string& name, const Bytes& content) const {
+    const auto file = std::filesystem::path(path()) / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+  }
+
+ private:
+  TemporaryFile name_;
+};
+
+/// As read_all, from a path.
+inline Recording read_path(const std::string& path, const ReadOptions& options = {}, size_t batch = 4096) {
+  auto source = open_events(path, options);
+  if (!source) return {"", std::nullopt, {}, {}, source.error().message};
+  return read_all(*std::move(source), batch);
+}
+
 }  // namespace scarf

@@ -1,7 +1,6 @@
 // YARP event-driven logs, versions 1 and 2, line by line.
 #include <gmock/gmock.h>
 
-#include "archives.h"
 #include "io_test_helpers.h"
 
 namespace scarf {

@@ -1,19 +1,17 @@
-// Small archives and images, byte by byte, and folders to put them in.
+// Small archives and images, byte by byte.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "io_test_helpers.h"
+#include "core/little_endian.h"
 
-namespace scarf {
+namespace scarf::test {
 
 inline uint32_t crc32_of(std::span<const uint8_t> bytes) {
   uint32_t crc = 0xFFFFFFFF;
@@ -25,17 +23,18 @@ inline uint32_t crc32_of(std::span<const uint8_t> bytes) {
 }
 
 /// A zip archive whose members are stored as they are.
-inline Bytes zip_file(const std::vector<std::pair<std::string, Bytes>>& members) {
-  Bytes zip;
-  Bytes directory;
-  const auto add = [](Bytes& to, std::span<const uint8_t> from) {
+inline std::vector<uint8_t> zip_file(
+    const std::vector<std::pair<std::string, std::vector<uint8_t>>>& members) {
+  std::vector<uint8_t> zip;
+  std::vector<uint8_t> directory;
+  const auto add = [](std::vector<uint8_t>& to, std::span<const uint8_t> from) {
     to.insert(to.end(), from.begin(), from.end());
   };
   for (const auto& [name, content] : members) {
     const auto place = static_cast<uint32_t>(zip.size());
     const auto size = static_cast<uint32_t>(content.size());
     // What the member and its entry in the directory both say: version, flags, method, time, date, ...
-    Bytes common;
+    std::vector<uint8_t> common;
     for (const int word : {20, 0, 0, 0, 0x21}) append_little_endian(common, static_cast<uint16_t>(word));
     append_little_endian(common, crc32_of(content));
     append_little_endian(common, size);
@@ -45,7 +44,7 @@ inline Bytes zip_file(const std::vector<std::pair<std::string, Bytes>>& members)
 
     append_little_endian(zip, uint32_t{0x04034B50});
     add(zip, common);
-    add(zip, bytes_of(name));
+    add(zip, std::vector<uint8_t>(name.begin(), name.end()));
     add(zip, content);
 
     append_little_endian(directory, uint32_t{0x02014B50});
@@ -54,7 +53,7 @@ inline Bytes zip_file(const std::vector<std::pair<std::string, Bytes>>& members)
     for (int i = 0; i < 3; ++i) append_little_endian(directory, uint16_t{0});
     append_little_endian(directory, uint32_t{0});
     append_little_endian(directory, place);
-    add(directory, bytes_of(name));
+    add(directory, std::vector<uint8_t>(name.begin(), name.end()));
   }
   const auto place = static_cast<uint32_t>(zip.size());
   add(zip, directory);
@@ -68,31 +67,31 @@ inline Bytes zip_file(const std::vector<std::pair<std::string, Bytes>>& members)
 }
 
 /// A grey PNG image of one byte per pixel, not compressed. At most 65,535 bytes with one more per row.
-inline Bytes png_file(uint32_t width, uint32_t height, const Bytes& pixels) {
-  Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-  const auto append_big_endian = [](Bytes& to, uint32_t value) {
+inline std::vector<uint8_t> png_file(uint32_t width, uint32_t height, const std::vector<uint8_t>& pixels) {
+  std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+  const auto append_big_endian = [](std::vector<uint8_t>& to, uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<uint8_t>(value >> shift));
   };
-  const auto add_chunk = [&](std::string_view name, const Bytes& content) {
+  const auto add_chunk = [&](std::string_view name, const std::vector<uint8_t>& content) {
     append_big_endian(png, static_cast<uint32_t>(content.size()));
-    Bytes checked = bytes_of(name);
+    std::vector<uint8_t> checked(name.begin(), name.end());
     checked.insert(checked.end(), content.begin(), content.end());
     png.insert(png.end(), checked.begin(), checked.end());
     append_big_endian(png, crc32_of(checked));
   };
-  Bytes header;
+  std::vector<uint8_t> header;
   append_big_endian(header, width);
   append_big_endian(header, height);
   append_little_endian(header, uint32_t{8});
   header.push_back(0);
   add_chunk("IHDR", header);
   // Rows behind the number of their filter, in one stored block of zlib.
-  Bytes rows(size_t{height} * (width + 1));
+  std::vector<uint8_t> rows(size_t{height} * (width + 1));
   for (size_t y = 0; y < height; ++y) {
     std::copy_n(pixels.begin() + static_cast<ptrdiff_t>(y * width), width,
                 rows.begin() + static_cast<ptrdiff_t>(y * (width + 1) + 1));
   }
-  Bytes data = {0x78, 0x01, 0x01};
+  std::vector<uint8_t> data = {0x78, 0x01, 0x01};
   append_little_endian(data, static_cast<uint16_t>(rows.size()));
   append_little_endian(data, static_cast<uint16_t>(~rows.size()));
   data.insert(data.end(), rows.begin(), rows.end());
@@ -108,30 +107,4 @@ inline Bytes png_file(uint32_t width, uint32_t height, const Bytes& pixels) {
   return png;
 }
 
-/// A folder of this test, removed with all that it holds at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() { std::filesystem::remove_all(path()); }
-  ~TemporaryFolder() { std::filesystem::remove_all(path()); }
-
-  const std::string& path() const { return name_.path(); }
-  /// Writes a file; folders within its name are made.
-  void add(const std::string& name, const Bytes& content) const {
-    const auto file = std::filesystem::path(path()) / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
-  }
-
- private:
-  TemporaryFile name_;
-};
-
-/// As read_all, from a path.
-inline Recording read_path(const std::string& path, const ReadOptions& options = {}, size_t batch = 4096) {
-  auto source = open_events(path, options);
-  if (!source) return {"", std::nullopt, {}, {}, source.error().message};
-  return read_all(*std::move(source), batch);
-}
-
-}  // namespace scarf
+}  // namespace scarf::test
