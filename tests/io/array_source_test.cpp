@@ -201,6 +201,14 @@ TEST_F(NpzReader, AnArrayPerColumn) {
   EXPECT_NE(read({p, t, x, {"y.npy", npy_file("'<u2'", "(1,)", {2, 0})}}).error, "");
 }
 
+TEST_F(NpzReader, TooManyArraysAreRefused) {
+  std::vector<std::pair<std::string, Bytes>> members;
+  for (int i = 0; i < 256; ++i) members.emplace_back(std::to_string(i) + ".npy", object_);
+  EXPECT_THAT(read(members).error, HasSubstr("none of the arrays"));
+  members.emplace_back("events.npy", rows_);
+  EXPECT_THAT(read(members).error, HasSubstr("more than 256 arrays"));
+}
+
 TEST_F(NpzReader, ADamagedMemberIsDamage) {
   // More than the reader's buffer, so that what is before the damage is handed out.
   Bytes content;
