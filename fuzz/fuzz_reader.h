@@ -23,14 +23,14 @@ inline void require(bool condition) {
 }
 
 inline Reading read_in_steps(const std::vector<uint8_t>& bytes, size_t bytes_at_a_time,
-                             size_t events_at_a_time) {
+                             size_t events_at_a_time, const ReadOptions& options = {}) {
   const auto read_some = [&, rest = std::span(bytes)](std::span<uint8_t> out) mutable -> Result<size_t> {
     const size_t count = std::min({out.size(), bytes_at_a_time, rest.size()});
     std::copy_n(rest.begin(), count, out.begin());
     rest = rest.subspan(count);
     return count;
   };
-  auto source = open_input(ByteReader(read_some, 0), "fuzz");
+  auto source = open_input(ByteReader(read_some, 0), "fuzz", options);
   if (!source) return {};
   Reading reading;
   std::vector<Event> buffer(events_at_a_time);
@@ -51,11 +51,12 @@ inline Reading read_in_steps(const std::vector<uint8_t>& bytes, size_t bytes_at_
   return reading;
 }
 
-inline void check_reader(std::string_view header, std::span<const uint8_t> data) {
+inline void check_reader(std::string_view header, std::span<const uint8_t> data,
+                         const ReadOptions& options = {}) {
   std::vector<uint8_t> bytes(header.begin(), header.end());
   bytes.insert(bytes.end(), data.begin(), data.end());
-  const Reading whole = read_in_steps(bytes, bytes.size(), 1024);
-  const Reading pieces = read_in_steps(bytes, 5, 3);
+  const Reading whole = read_in_steps(bytes, bytes.size(), 1024, options);
+  const Reading pieces = read_in_steps(bytes, 5, 3, options);
   require(whole.events == pieces.events);
   require(whole.report.outside == pieces.report.outside);
   require(whole.report.back_steps == pieces.report.back_steps);

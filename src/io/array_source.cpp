@@ -151,6 +151,7 @@ class ArraySource final : public BlockSource {
   Row decode(size_t row, Event& event) const;
   void skip(size_t rows);
   void end_early();
+  Result<void> end();
 
   std::string_view format_;
   std::vector<Array> arrays_;
@@ -182,13 +183,38 @@ void ArraySource::skip(size_t rows) {
 void ArraySource::end_early() {
   for (Array& array : arrays_) {
     const size_t rest = array.bytes.available().size();
-    if (rest < array.row_bytes) tally_.report.truncated_bytes += rest;
+    if (rest >= array.row_bytes) continue;
+    tally_.report.truncated_bytes += rest;
+    array.bytes.skip(rest);
   }
   tally_.note_damage(bytes_read(), text("the array ends after ", read_, " of ", rows_, " rows"));
 }
 
+// Behind the last row: only at its end does a member of an archive tell whether its checksum is right.
+Result<void> ArraySource::end() {
+  for (Array& array : arrays_) {
+    uint64_t rest = 0;
+    for (;;) {
+      if (const auto filled = array.bytes.fill(1); !filled) {
+        if (filled.error().code != ErrorCode::bad_input) return filled.error();
+        tally_.note_damage(bytes_read(), filled.error().message);
+        break;
+      }
+      const size_t more = array.bytes.available().size();
+      if (more == 0) break;
+      rest += more;
+      array.bytes.skip(more);
+    }
+    if (rest > 0) tally_.note_damage(bytes_read() - rest, text(rest, " bytes follow the array's last row"));
+  }
+  return {};
+}
+
 Result<bool> ArraySource::next(std::vector<Event>& block) {
-  if (read_ == rows_) return false;
+  if (read_ == rows_) {
+    if (const auto ended = end(); !ended) return ended.error();
+    return false;
+  }
   size_t rows = static_cast<size_t>(std::min<uint64_t>(rows_ - read_, kBlockRows));
   for (Array& array : arrays_) {
     if (const auto filled = array.bytes.fill(array.row_bytes); !filled) {

@@ -3,6 +3,7 @@
 
 #include "core/text.h"
 #include "io/checked_sink.h"
+#include "io/event_tally.h"
 #include "io/numpy_header.h"
 #include "io/writers.h"
 
@@ -28,7 +29,7 @@ std::string header_for(uint64_t events) {
 class NpyWriter final : public CheckedSink {
  public:
   NpyWriter(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {.format = "npy", .back_steps = true}) {
+      : CheckedSink(std::move(output), sensor, {"npy", -kMaxTime + 1, kMaxTime, true}) {
     output_.append(header_for(0));
   }
 

@@ -16,6 +16,8 @@ constexpr std::string_view kName = "npz";
 constexpr std::string_view kExtension = ".npy";
 // The array that is taken if there are several and none is named.
 constexpr std::string_view kPreferred = "events";
+// Each is open, with a buffer of its own, until one is chosen.
+constexpr size_t kMaxArrays = 256;
 
 Error bad(std::string message) {
   return {ErrorCode::bad_input, std::move(message)};
@@ -36,6 +38,9 @@ Result<std::vector<NamedArray>> arrays_of(const ZipArchive& archive) {
     if (!bytes) return bytes.error();
     auto header = read_numpy_header(*bytes);
     if (!header) continue;
+    if (arrays.size() == kMaxArrays) {
+      return bad(text("the archive holds more than ", kMaxArrays, " arrays; save those of the events apart"));
+    }
     arrays.push_back({member.name.substr(0, member.name.size() - kExtension.size()), *std::move(header),
                       *std::move(bytes)});
   }

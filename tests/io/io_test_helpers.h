@@ -55,6 +55,17 @@ inline Bytes evt3_file(std::initializer_list<uint16_t> words, std::string_view m
   return with_words("% evt 3.0\n" + std::string(more_header) + "% end\n", words);
 }
 
+/// What is empty is left as it is.
+inline ReadOptions read_options(std::string stream, std::string columns = "", std::string time_unit = "",
+                                std::string format = "") {
+  ReadOptions options;
+  options.stream = std::move(stream);
+  options.columns = std::move(columns);
+  options.time_unit = std::move(time_unit);
+  options.format = std::move(format);
+  return options;
+}
+
 struct Recording {
   std::string format;
   std::optional<SensorSize> sensor;
@@ -102,6 +113,14 @@ inline ByteReader dripping(const Bytes& bytes, size_t step) {
   return ByteReader(read_some, 0);
 }
 
+/// The library without which this build cannot read the format; empty if it can.
+inline std::string missing_library(std::string_view format) {
+  for (const FormatInfo& info : formats()) {
+    if (info.name == format) return info.missing;
+  }
+  return "";
+}
+
 /// A file name of this test, removed at the end.
 class TemporaryFile {
  public:
@@ -126,5 +145,31 @@ class TemporaryFile {
  private:
   std::string path_;
 };
+
+/// A folder of this test, removed with all that it holds at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() { std::filesystem::remove_all(path()); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path()); }
+
+  const std::string& path() const { return name_.path(); }
+  /// Writes a file; folders within its name are made.
+  void add(const std::string& name, const Bytes& content) const {
+    const auto file = std::filesystem::path(path()) / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+  }
+
+ private:
+  TemporaryFile name_;
+};
+
+/// As read_all, from a path.
+inline Recording read_path(const std::string& path, const ReadOptions& options = {}, size_t batch = 4096) {
+  auto source = open_events(path, options);
+  if (!source) return {"", std::nullopt, {}, {}, source.error().message};
+  return read_all(*std::move(source), batch);
+}
 
 }  // namespace scarf

@@ -120,5 +120,56 @@ TEST(TextReader, SkipsLinesOfAnyLengthWithinItsBuffer) {
   EXPECT_EQ(r.report.unknown_words, 2u);
 }
 
+TEST(Csv, OfOpenEbSaysItsSensorAndHasMicroseconds) {
+  const auto r = read_text("%geometry:640,480\n1,2,1,100\n3,4,0,250\n640,0,1,300\n");
+  EXPECT_EQ(r.error, "");
+  EXPECT_EQ(r.format, "csv");
+  EXPECT_EQ(r.sensor, (SensorSize{640, 480}));
+  EXPECT_THAT(r.events, ElementsAre(Event{100, 1, 2, 1}, Event{250, 3, 4, 0}));
+  EXPECT_EQ(r.report.outside, 1u);
+  EXPECT_EQ(read_text("1,2,1,100\n3,4,0,250\n", read_options("", "", "", "csv")).events, r.events);
+  const auto empty = read_text("%geometry:640,480\n");
+  EXPECT_EQ(empty.format, "csv");
+  EXPECT_EQ(empty.sensor, (SensorSize{640, 480}));
+}
+
+TEST(Csv, OfFaeryNamesItsColumns) {
+  const auto r = read_text("t,x,y,on\n100,1,2,true\n250,3,4,false\n");
+  EXPECT_EQ(r.error, "");
+  EXPECT_THAT(r.events, ElementsAre(Event{100, 1, 2, 1}, Event{250, 3, 4, 0}));
+  EXPECT_EQ(r.report.unknown_words, 0u);
+}
+
+TEST(Columns, NamesInTheFirstLineCount) {
+  const auto r = read_text("X, Y, Polarity, Timestamp, speed\n1,2,1,0.5,9\n3,4,0,0.75,9\n");
+  EXPECT_EQ(r.error, "");
+  EXPECT_THAT(r.events, ElementsAre(Event{500'000, 1, 2, 1}, Event{750'000, 3, 4, 0}));
+}
+
+TEST(Columns, OptionsSayOrderAndUnit) {
+  const std::vector<Event> two = {{1000, 1, 2, 1}, {2500, 3, 4, 0}};
+  EXPECT_EQ(read_text("1 2 1 7 1\n3 4 0 7 2.5\n", read_options("", "xyp_t", "ms")).events, two);
+  EXPECT_EQ(read_text("1000000 1 2 1\n2500000 3 4 0\n", read_options("", "", "ns")).events, two);
+  EXPECT_EQ(read_text("1000,1,2,1\n2500,3,4,0\n", read_options("", "txyp", "us")).events, two);
+  EXPECT_THAT(read_text("1 2 1 7 1\n3 4 0 7 2.5\n", read_options("", "xypt")).error, HasSubstr("5 columns"));
+  EXPECT_THAT(read_text("1 2 1 7\n", read_options("", "xyp")).error, HasSubstr("each of t, x, y and p"));
+  EXPECT_THAT(read_text("1 2 3 1\n", read_options("", "", "h")).error, HasSubstr("unit"));
+}
+
+TEST(Columns, WholeNumbersCouldBeSecondsOrMicroseconds) {
+  EXPECT_THAT(read_text("1000 1 2 1\n2500 3 4 0\n").error, HasSubstr("--time-unit"));
+  // A fraction anywhere in the beginning decides.
+  EXPECT_EQ(read_text("1 1 2 1\n2.5 3 4 0\n").error, "");
+}
+
+TEST(Columns, OfTwoCamerasOneIsChosen) {
+  const std::string lines = "10 1 2 1 0 5.5\n20 3 4 0 1 5.5\n30 5 6 1 0 5.5\n";
+  EXPECT_THAT(read_text(lines, read_options("", "txypc_", "us")).error, HasSubstr("--stream"));
+  EXPECT_THAT(read_text(lines, read_options("0", "txypc_", "us")).events,
+              ElementsAre(Event{10, 1, 2, 1}, Event{30, 5, 6, 1}));
+  EXPECT_THAT(read_text(lines, read_options("1", "txypc_", "us")).events, ElementsAre(Event{20, 3, 4, 0}));
+  EXPECT_THAT(read_text("0.1 1 2 1\n", read_options("1")).error, HasSubstr("camera"));
+}
+
 }  // namespace
 }  // namespace scarf

@@ -9,7 +9,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr const char* kFormats[] = {"dat", "evt2", "evt21", "evt3", "evt4", "text"};
+constexpr const char* kFormats[] = {"dat", "evt2", "evt21", "evt3", "evt4", "es", "npy", "csv", "text"};
 
 // Writes in batches of `batch`; the message of the first error, or "".
 std::string write_all(const std::string& path, std::string_view format, SensorSize sensor,
@@ -32,7 +32,7 @@ void expect_round_trip(std::string_view format, SensorSize sensor, const std::ve
     const auto r = read_all(file.content());
     EXPECT_EQ(r.error, "");
     EXPECT_EQ(r.format, format);
-    EXPECT_EQ(r.sensor, sensor);
+    EXPECT_EQ(r.sensor, format == "npy" ? std::nullopt : std::optional(sensor));
     EXPECT_TRUE(r.events == events) << r.events.size() << " of " << events.size();
     EXPECT_EQ(r.report.unknown_words + r.report.outside + r.report.truncated_bytes + r.report.back_steps, 0u);
   }
@@ -73,7 +73,7 @@ TEST(Writers, RandomStreamsComeBackIdentical) {
 
 TEST(Writers, LongGapsAndLateStartsComeBackIdentical) {
   for (const std::string_view format : kFormats) {
-    if (format == "dat") continue;  // its clock has 32 bits
+    if (format == "dat" || format == "es") continue;  // their clocks have 32 and 34 bits
     const SensorSize sensor{640, 480};
     for (const int64_t start :
          {int64_t{0}, (int64_t{1} << 24) - 3, int64_t{913'716'224}, (int64_t{1} << 36) - 1'000'000}) {
@@ -141,6 +141,47 @@ TEST(Writers, DatRecordsAreThoseOfTheFormat) {
   EXPECT_EQ(write_all(file.path(), "dat", {16'384, 16'384}, std::vector<Event>{{0, 16'383, 16'383, 1}}), "");
 }
 
+TEST(Writers, EventStreamBytesAreThoseOfTheFormat) {
+  const TemporaryFile file;
+  const std::vector<Event> events = {{3, 5, 0, 1}, {257, 258, 239, 0}, {257, 0, 1, 1}, {383, 0, 1, 1}};
+  ASSERT_EQ(write_all(file.path(), "es", {320, 240}, events), "");
+  Bytes expected = bytes_of("Event Stream");
+  const uint8_t rest[] = {2,   0,   0, 1,   0x40, 1, 240, 0,  // version, DVS, 320x240
+                          7,   5,   0, 239, 0,                // 3 us on, ON; y from the bottom
+                          255, 255, 0, 2,   1,    0, 0,       // 2 x 127 us, 0, OFF
+                          1,   0,   0, 238, 0,                // at once, ON
+                          253, 0,   0, 238, 0};               // 126 us, ON
+  expected.insert(expected.end(), std::begin(rest), std::end(rest));
+  EXPECT_EQ(file.content(), expected);
+  EXPECT_THAT(write_all(file.path(), "es", {320, 240}, std::vector<Event>{{int64_t{1} << 34, 3, 2, 1}}),
+              HasSubstr("shift the times"));
+}
+
+TEST(Writers, CsvIsThatOfOpenEb) {
+  const TemporaryFile file;
+  const std::vector<Event> events = {{-7, 1, 2, 1}, {65, 30, 2, 0}};
+  ASSERT_EQ(write_all(file.path(), "csv", {640, 480}, events), "");
+  EXPECT_EQ(file.content(), bytes_of("%geometry:640,480\n1,2,1,-7\n30,2,0,65\n"));
+}
+
+TEST(Writers, NpyHoldsTheRecordsOfMetavision) {
+  const TemporaryFile file;
+  const std::vector<Event> events = {{-2, 258, 3, 1}, {int64_t{1} << 40, 4, 515, 0}};
+  ASSERT_EQ(write_all(file.path(), "npy", {640, 640}, events), "");
+  Bytes content = file.content();
+  ASSERT_EQ(content.size(), 192u + 2 * 16);
+  const std::string header(content.begin(), content.begin() + 192);
+  EXPECT_EQ(header.substr(0, 10), std::string("\x93NUMPY\1\0\xB6\0", 10));
+  EXPECT_THAT(header, HasSubstr("[('x', '<u2'), ('y', '<u2'), ('p', '<i2'), ('', '|V2'), ('t', '<i8')]"));
+  EXPECT_THAT(header, HasSubstr("'shape': (2,)"));
+  EXPECT_EQ(header.back(), '\n');
+  content.erase(content.begin(), content.begin() + 192);
+  const uint8_t records[] = {2, 1, 3, 0, 1, 0, 0, 0, 0xFE, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF,
+                             4, 0, 3, 2, 0, 0, 0, 0, 0,    0,    0,    0,    0,    1,    0,    0};
+  EXPECT_EQ(content, Bytes(std::begin(records), std::end(records)));
+  EXPECT_THAT(write_all("-", "npy", {640, 480}, {}), HasSubstr("standard output"));
+}
+
 TEST(Writers, Evt3UsesVectorsForRowsOfNeighbours) {
   std::vector<Event> row;
   for (uint16_t x = 100; x < 164; ++x) row.push_back({7, x, 9, 1});
@@ -165,7 +206,7 @@ TEST(Writers, RefuseWhatTheFormatCannotHold) {
   const struct {
     Event event;
     const char* reason;
-    bool text_holds_it;
+    bool numbers_hold_it;  // text, csv and npy
   } cases[] = {
       {{99, 1, 1, 1}, "sort the events", true},
       {{100, 2048, 0, 1}, "2047", true},
@@ -183,8 +224,9 @@ TEST(Writers, RefuseWhatTheFormatCannotHold) {
       const TemporaryFile file;
       const std::string error =
           write_all(file.path(), format, sensor, std::vector<Event>{{100, 5, 6, 1}, c.event});
-      const bool dat_holds_it = std::string_view(c.reason) == "2047";
-      if (format == "text" ? c.text_holds_it : format == "dat" && dat_holds_it) {
+      const bool numbers = format == "text" || format == "csv" || format == "npy";
+      const bool large_sensors = format == "dat" || format == "es";
+      if (numbers ? c.numbers_hold_it : large_sensors && std::string_view(c.reason) == "2047") {
         EXPECT_EQ(error, "");
       } else {
         EXPECT_THAT(error, AllOf(HasSubstr(file.path()), HasSubstr("event 1 "), HasSubstr(c.reason),
