@@ -28,6 +28,7 @@ void add_cut(CLI::App& program, Command& command);
 void add_devices(CLI::App& program, Command& command);
 void add_digest(CLI::App& program, Command& command);
 void add_formats(CLI::App& program, Command& command);
+void add_frames(CLI::App& program, Command& command);
 void add_info(CLI::App& program, Command& command);
 void add_representations(CLI::App& program, Command& command);
 void add_render(CLI::App& program, Command& command);

@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
   scarf::tools::add_devices(program, command);
   scarf::tools::add_bench(program, command);
 #ifdef SCARF_PICTURES
+  scarf::tools::add_frames(program, command);
   scarf::tools::add_render(program, command);
   scarf::tools::add_reprocess(program, command);
   scarf::tools::add_simulate(program, command);

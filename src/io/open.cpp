@@ -1,6 +1,7 @@
 // Recognition of a recording's format by its content.
 #include "io/open.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -87,8 +88,10 @@ Result<const Format*> recognise(Input& input) {
   if (input.header && !input.header->format.empty()) return find_format(input.header->format);
   for (const size_t size : kLookAhead) {
     if (const auto filled = input.bytes.fill(size); !filled) return filled.error();
-    const Beginning beginning{input.bytes.available(), input.bytes.ended(),
-                              size == kLookAhead.back() || input.bytes.ended(), input.path, input.folder};
+    // No more than asked for, or what is recognised would depend on how the input comes.
+    const auto bytes = input.bytes.available().first(std::min(size, input.bytes.available().size()));
+    const bool ended = input.bytes.ended() && bytes.size() == input.bytes.available().size();
+    const Beginning beginning{bytes, ended, size == kLookAhead.back() || ended, input.path, input.folder};
     if (!input.header && !foreign_format(beginning.bytes).empty()) break;
     for (const Format* format : all_formats()) {
       if (input.header && !format->prophesee) continue;

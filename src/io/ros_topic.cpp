@@ -38,7 +38,11 @@ Result<RosTopic> RosTopic::open(std::unique_ptr<RosBag> bag, const std::string& 
   size_t messages = 0;
   size_t bytes = 0;
   bool found = false;
-  while (topic.named_ ? !found : messages < kFirstMessages && bytes < kFirstBytes) {
+  // Damage is kept as well; of hostile files, not without bound.
+  const auto full = [&] {
+    return messages >= kFirstMessages || bytes >= kFirstBytes || topic.kept_.size() >= 2 * kFirstMessages;
+  };
+  while (topic.named_ ? !found : !full()) {
     auto message = topic.bag_->next();
     if (!message) return message.error();
     if (!*message) break;
@@ -61,8 +65,7 @@ Result<RosTopic> RosTopic::open(std::unique_ptr<RosBag> bag, const std::string& 
       kept.bytes.assign(kept.message.bytes.begin(), kept.message.bytes.end());
       bytes += kept.bytes.size();
     }
-    // Damage is passed on as well; of hostile files, not without bound.
-    if (topic.kept_.size() < 2 * kFirstMessages) topic.kept_.push_back(std::move(kept));
+    if (found || topic.kept_.size() < 2 * kFirstMessages) topic.kept_.push_back(std::move(kept));
   }
   const auto chosen = choose_stream(stream, names, what);
   if (!chosen) return chosen.error();

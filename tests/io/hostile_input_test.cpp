@@ -146,6 +146,20 @@ TEST(HostileInput, DamagedFiles) {
   }
 }
 
+// A second signature farther on, where HDF5 may have its own: what a recording is must not depend on how it
+// comes.
+TEST(HostileInput, TwoSignatures) {
+  using namespace std::string_view_literals;
+  for (const std::string_view first : {"#ROSBAG V2.0\n"sv, "\x89MCAP0\r\n"sv, "#!AER-DAT4.0\r\n"sv}) {
+    Bytes bytes = bytes_of(first);
+    bytes.resize(512);
+    for (const char c : "\x89HDF\r\n\x1A\n"sv) bytes.push_back(static_cast<uint8_t>(c));
+    bytes.resize(1000);
+    expect_same_however_read(bytes);
+    EXPECT_EQ(read_all(bytes).error.find("HDF5"), std::string::npos);
+  }
+}
+
 TEST(HostileInput, RandomBytes) {
   std::mt19937 random(7);
   for (const char* header :

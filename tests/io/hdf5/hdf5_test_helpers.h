@@ -62,7 +62,7 @@ class Hdf5Test : public ::testing::Test {
   /// The exit status of make_hdf5.py; 77: h5py or a filter is missing.
   int python(const std::string& what, const std::string& file) const {
     const std::string command =
-        std::string(SCARF_H5PY_PYTHON " " SCARF_MAKE_HDF5 " ") + what + " " + path("events") + " " + file;
+        std::string(SCARF_SYSTEM_PYTHON " " SCARF_MAKE_HDF5 " ") + what + " " + path("events") + " " + file;
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

@@ -1,0 +1,192 @@
+// Bags, MCAP and AEDAT4 that a Python script writes from the formats' descriptions: what was written is read.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "io_test_helpers.h"
+#include "scarf/frames.h"
+
+namespace scarf {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr SensorSize kSensor{346, 260};
+constexpr int64_t kUnixTime = 1'700'000'000'999'000;
+
+std::vector<Event> some_events() {
+  std::mt19937 random(3);
+  std::vector<Event> events;
+  for (int64_t t = kUnixTime; events.size() < 500; t += static_cast<int64_t>(random() % 40)) {
+    events.push_back({t, static_cast<uint16_t>(random() % 346), static_cast<uint16_t>(random() % 260),
+                      static_cast<uint8_t>(random() % 2)});
+  }
+  return events;
+}
+
+class MadeBags : public ::testing::Test {
+ protected:
+  MadeBags()
+      : folder_(std::filesystem::path(testing::TempDir()) / ("scarf_made_bags_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+    Bytes packed;
+    for (const Event& e : events) {
+      append_little_endian(packed, e.t);
+      append_little_endian(packed, e.x);
+      append_little_endian(packed, e.y);
+      packed.push_back(e.p);
+    }
+    std::ofstream(path("events"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size()));
+  }
+  ~MadeBags() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Writes a recording of this kind. False: a library of ours or a Python module is missing.
+  bool make(const std::string& kind, const std::string& format) const {
+    for (const FormatInfo& info : formats()) {
+      if (info.name == format && !info.missing.empty()) return false;
+    }
+    const std::string command = std::string(SCARF_SYSTEM_PYTHON " " SCARF_MAKE_BAGS " ") + kind + " " +
+                                path("events") + " " + path(kind);
+    const int status = std::system(command.c_str());
+    const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (exit_code == 77) return false;
+    EXPECT_EQ(exit_code, 0) << kind;
+    return true;
+  }
+  static constexpr const char* kMissing = "python3-lz4, python3-zstandard or a library is not installed";
+
+  Recording read(const std::string& kind, const ReadOptions& options = {}) const {
+    auto source = open_events(path(kind), options);
+    if (!source) return {"", std::nullopt, {}, {}, source.error().message};
+    return read_all(*std::move(source), 77);
+  }
+
+  void expect_written(const Recording& r, const std::string& format) const {
+    EXPECT_EQ(r.error, "");
+    EXPECT_EQ(r.format, format);
+    EXPECT_EQ(r.sensor, kSensor);
+    EXPECT_EQ(r.events, events);
+    EXPECT_EQ(r.report.damages + r.report.gaps + r.report.truncated_bytes + r.report.unknown_words, 0u);
+  }
+
+  std::vector<Trigger> triggers(const std::string& kind) const {
+    const auto source = open_triggers(path(kind));
+    EXPECT_TRUE(source.ok()) << source.error().message;
+    std::vector<Trigger> all;
+    std::array<Trigger, 2> some;
+    for (;;) {
+      const auto count = (*source)->read(some);
+      EXPECT_TRUE(count.ok());
+      if (!count || *count == 0) return all;
+      all.insert(all.end(), some.begin(), some.begin() + static_cast<ptrdiff_t>(*count));
+    }
+  }
+
+  const std::vector<Event> events = some_events();
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(MadeBags, Ros1WithoutCompression) {
+  if (!make("rosbag-dvs-none", "rosbag")) GTEST_SKIP() << kMissing;
+  expect_written(read("rosbag-dvs-none"), "rosbag");
+}
+
+TEST_F(MadeBags, Ros1WithBzip2AndMessagesOfProphesee) {
+  if (!make("rosbag-prophesee-bz2", "rosbag")) GTEST_SKIP() << kMissing;
+  expect_written(read("rosbag-prophesee-bz2"), "rosbag");
+}
+
+TEST_F(MadeBags, Ros1WithLz4) {
+  if (!make("rosbag-dvs-lz4", "rosbag")) GTEST_SKIP() << kMissing;
+  expect_written(read("rosbag-dvs-lz4"), "rosbag");
+}
+
+TEST_F(MadeBags, Ros1WithoutAnIndex) {
+  if (!make("rosbag-dvs-none-unindexed", "rosbag")) GTEST_SKIP() << kMissing;
+  expect_written(read("rosbag-dvs-none-unindexed"), "rosbag");
+}
+
+TEST_F(MadeBags, Ros2FolderOfBigEndianArraysInTheOrderOfItsMetadata) {
+  if (!make("rosbag2-folder", "rosbag2")) GTEST_SKIP() << kMissing;
+  expect_written(read("rosbag2-folder"), "rosbag2");
+}
+
+TEST_F(MadeBags, Ros2DatabaseOfBigEndianMessages) {
+  if (!make("rosbag2-mono", "rosbag2")) GTEST_SKIP() << kMissing;
+  expect_written(read("rosbag2-mono"), "rosbag2");
+}
+
+TEST_F(MadeBags, McapWithEveryCompression) {
+  for (const std::string kind : {"mcap", "mcap-lz4", "mcap-zstd"}) {
+    if (!make(kind, "mcap")) GTEST_SKIP() << kMissing;
+    expect_written(read(kind), "mcap");
+  }
+}
+
+TEST_F(MadeBags, McapWithTriggersOnATopicOfTheirOwn) {
+  if (!make("mcap", "mcap")) GTEST_SKIP() << kMissing;
+  const auto found = triggers("mcap");
+  ASSERT_EQ(found.size(), 5u);
+  for (size_t i = 0; i < 5; ++i) {
+    const Trigger expected{events[100 * i].t, static_cast<uint16_t>(100 * i % 3),
+                           static_cast<uint8_t>(i % 2)};
+    EXPECT_EQ(found[i], expected) << i;
+  }
+}
+
+TEST_F(MadeBags, Aedat4WithEveryCompression) {
+  for (const std::string kind : {"aedat4-none-1", "aedat4-lz4-1", "aedat4-zstd-1"}) {
+    if (!make(kind, "aedat4")) GTEST_SKIP() << kMissing;
+    expect_written(read(kind), "aedat4");
+  }
+}
+
+TEST_F(MadeBags, Aedat4WithTwoCameras) {
+  if (!make("aedat4-zstd-2", "aedat4")) GTEST_SKIP() << kMissing;
+  EXPECT_THAT(read("aedat4-zstd-2").error, AllOf(HasSubstr("--stream"), HasSubstr("0 (346x260 from CAMERA0)"),
+                                                 HasSubstr("1 (346x260 from CAMERA1)")));
+  expect_written(read("aedat4-zstd-2", {.sensor = {}, .stream = "0"}), "aedat4");
+  auto second = read("aedat4-zstd-2", {.sensor = {}, .stream = "1"});
+  for (Event& e : second.events) e.x = static_cast<uint16_t>(345 - e.x);
+  expect_written(second, "aedat4");
+}
+
+TEST_F(MadeBags, Aedat4FramesInGreyAndColour) {
+  if (!make("aedat4-none-1", "aedat4")) GTEST_SKIP() << kMissing;
+  auto source = open_frames(path("aedat4-none-1"));
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  for (int number = 0; number < 2; ++number) {
+    const auto frame = (*source)->read();
+    ASSERT_TRUE(frame.ok() && *frame);
+    EXPECT_EQ((*frame)->t, kUnixTime + 1000 * number);
+    EXPECT_EQ((*frame)->exposure_begin, (*frame)->t - 300);
+    EXPECT_EQ((*frame)->exposure_end, (*frame)->t + 300);
+    ASSERT_EQ((*frame)->image.width, 8);
+    ASSERT_EQ((*frame)->image.height, 6);
+    for (int i = 0; i < 48; ++i) {
+      // Colours 3i, 3i + 1, 3i + 2 of blue, green and red: their luma is 3i + 1.185.
+      EXPECT_EQ((*frame)->image.pixels[static_cast<size_t>(i)], number == 0 ? i : 3 * i + 1);
+    }
+  }
+  const auto end = (*source)->read();
+  ASSERT_TRUE(end.ok());
+  EXPECT_FALSE(*end);
+}
+
+TEST_F(MadeBags, Aedat4Triggers) {
+  if (!make("aedat4-lz4-1", "aedat4")) GTEST_SKIP() << kMissing;
+  EXPECT_EQ(triggers("aedat4-lz4-1"),
+            (std::vector<Trigger>{
+                {kUnixTime, 0, 1}, {kUnixTime + 1, 0, 0}, {kUnixTime + 3, 1, 1}, {kUnixTime + 4, 1, 0}}));
+}
+
+}  // namespace
+}  // namespace scarf
