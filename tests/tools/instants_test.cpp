@@ -166,7 +166,7 @@ TEST(ReadTimes, NamesTheLineThatIsWrong) {
     EXPECT_FALSE(times.ok());
     return times.ok() ? Error() : times.error();
   };
-  EXPECT_THAT(error_of("1\n2.5\n").message, HasSubstr("line 2: '2.5'"));
+  EXPECT_THAT(error_of("1\n2.5x\n").message, HasSubstr("line 2: '2.5x'"));
   EXPECT_THAT(error_of("1\n3\n2\n").message, HasSubstr("line 3: time 2"));
   EXPECT_THAT(error_of("\n").message, HasSubstr("holds no times"));
   EXPECT_EQ(error_of("x").code, ErrorCode::bad_input);
