@@ -15,6 +15,9 @@ Result<int> bench(const BenchOptions& options) {
   return Error{ErrorCode::device,
                "this is a debug build, whose times mean nothing; build with the release preset"};
 #endif
+  if (options.sensor && !options.paper && !options.io) {
+    return Error{ErrorCode::illegal_parameter, "--geometry is used by --paper and --io only; leave it out"};
+  }
   if (options.io) return bench_io(options);
   if (options.wire) return bench_wire(options);
   if (options.replay) return bench_replay(options);
