@@ -25,6 +25,9 @@ inline constexpr uint32_t kTimeLowMask = (1 << kTimeLowBits) - 1;
 inline constexpr uint32_t kCoordinateMask = 0x7FF;
 inline constexpr uint32_t kTriggerInputMask = 0x1F;
 
+/// The first time that a file cannot hold.
+inline constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (kTimeHighBits + kTimeLowBits));
+
 using TimeHigh = HighCounter<kTimeHighBits>;
 
 /// The clock of EVT2, EVT2.1 and EVT4: 28 upper bits in words of their own, six lower ones in each event.

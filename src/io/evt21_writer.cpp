@@ -11,12 +11,10 @@
 namespace scarf {
 namespace {
 
-constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt2::kTimeHighBits + evt2::kTimeLowBits));
-
 class Evt21Writer final : public CheckedSink {
  public:
   Evt21Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"evt21", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
+      : CheckedSink(std::move(output), sensor, {"evt21", 0, evt2::kTimeEnd, false, evt2::kCoordinateMask}) {
     output_.append(prophesee_header_text("evt21", sensor));
   }
 

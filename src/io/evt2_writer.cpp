@@ -10,12 +10,10 @@
 namespace scarf {
 namespace {
 
-constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt2::kTimeHighBits + evt2::kTimeLowBits));
-
 class Evt2Writer final : public CheckedSink {
  public:
   Evt2Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"evt2", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
+      : CheckedSink(std::move(output), sensor, {"evt2", 0, evt2::kTimeEnd, false, evt2::kCoordinateMask}) {
     output_.append(prophesee_header_text("evt2", sensor));
   }
 

@@ -11,13 +11,12 @@
 namespace scarf {
 namespace {
 
-constexpr int64_t kTimeEnd = static_cast<int64_t>(kMaxLoops << (evt2::kTimeHighBits + evt2::kTimeLowBits));
 constexpr size_t kFewestInMask = 3;  // of 2 words
 
 class Evt4Writer final : public CheckedSink {
  public:
   Evt4Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"evt4", 0, kTimeEnd, false, evt2::kCoordinateMask}) {
+      : CheckedSink(std::move(output), sensor, {"evt4", 0, evt2::kTimeEnd, false, evt2::kCoordinateMask}) {
     output_.append(prophesee_header_text("evt4", sensor));
   }
 

@@ -8,8 +8,8 @@
 #include "core/little_endian.h"
 #include "core/text.h"
 #include "io/blocks.h"
-#include "io/decompressor.h"
 #include "io/known_formats.h"
+#include "io/record_bag.h"
 #include "io/ros_source.h"
 
 namespace scarf {
@@ -30,13 +30,9 @@ enum Opcode : uint8_t {
 };
 constexpr size_t kRecordHead = 1 + sizeof(uint64_t);  // opcode and length
 
-class Mcap final : public RosBag {
+class Mcap final : public RecordBag {
  public:
-  explicit Mcap(ByteReader input) : input_(std::move(input)) {}
-
-  Result<std::optional<RosMessage>> next() override;
-  uint64_t bytes_read() const override { return input_.consumed(); }
-  uint64_t bytes_total() const override { return input_.total(); }
+  using RecordBag::RecordBag;
 
  private:
   struct Channel {
@@ -44,54 +40,20 @@ class Mcap final : public RosBag {
     RosType type = RosType::event_packet;
     RosSerialization serialization = RosSerialization::cdr;
   };
-  using Maybe = std::optional<RosMessage>;
 
-  Maybe damage(std::string what, uint64_t truncated = 0) const {
-    RosMessage message;
-    message.byte = byte_;
-    message.damage = std::move(what);
-    message.truncated = truncated;
-    return message;
-  }
-  Result<Maybe> cut_short(std::string what);
-  Result<Maybe> next_record();
+  Result<Maybe> next_record() override;
   Result<Maybe> open_chunk();
-  Maybe next_of_chunk();
+  Maybe next_of_chunk() override;
   Maybe take(uint8_t opcode, std::span<const uint8_t> content);
 
-  ByteReader input_;
-  uint64_t byte_ = 0;  // of the record outside of chunks that was read last
-  bool ended_ = false;
   std::map<uint16_t, RosType> schemas_;   // those with events
   std::map<uint16_t, Channel> channels_;  // those with events
-  std::map<Compression, Decompressor> decompressors_;
   std::vector<uint8_t> content_;
-  std::span<const uint8_t> chunk_;  // what is left of the open chunk
 };
 
 // Numbers and strings of MCAP are written as ROS 1 writes them.
 RosCursor cursor_of(std::span<const uint8_t> content) {
   return {content, RosSerialization::ros1};
-}
-
-Result<std::optional<RosMessage>> Mcap::next() {
-  for (;;) {
-    if (!chunk_.empty()) {
-      if (auto message = next_of_chunk()) return message;
-      continue;
-    }
-    if (ended_) return Maybe();
-    auto message = next_record();
-    if (!message || *message) return message;
-  }
-}
-
-// The end of what can be read: the rest of the file is counted.
-Result<std::optional<RosMessage>> Mcap::cut_short(std::string what) {
-  ended_ = true;
-  const auto rest = skip_block(input_, std::numeric_limits<uint64_t>::max());
-  if (!rest) return rest.error();
-  return damage(std::move(what), input_.consumed() - byte_);
 }
 
 Result<std::optional<RosMessage>> Mcap::next_record() {

@@ -2,15 +2,14 @@
 // "Bags/Format/2.0".
 
 #include <array>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "core/little_endian.h"
 #include "core/text.h"
 #include "io/blocks.h"
-#include "io/decompressor.h"
 #include "io/known_formats.h"
+#include "io/record_bag.h"
 #include "io/ros_source.h"
 
 namespace scarf {
@@ -50,63 +49,25 @@ std::string text_field(std::span<const uint8_t> header, std::string_view name) {
   return value ? std::string(value->begin(), value->end()) : "";
 }
 
-class Rosbag final : public RosBag {
+class Rosbag final : public RecordBag {
  public:
-  explicit Rosbag(ByteReader input) : input_(std::move(input)) {}
-
-  Result<std::optional<RosMessage>> next() override;
-  uint64_t bytes_read() const override { return input_.consumed(); }
-  uint64_t bytes_total() const override { return input_.total(); }
+  using RecordBag::RecordBag;
 
  private:
   struct Connection {
     std::string topic;
     RosType type = RosType::event_packet;
   };
-  using Maybe = std::optional<RosMessage>;
 
-  Maybe damage(std::string what, uint64_t truncated = 0) const {
-    RosMessage message;
-    message.byte = byte_;
-    message.damage = std::move(what);
-    message.truncated = truncated;
-    return message;
-  }
-  Result<Maybe> cut_short(std::string what);
-  Result<Maybe> next_record();
+  Result<Maybe> next_record() override;
   Result<Maybe> open_chunk(std::span<const uint8_t> header);
-  Maybe next_of_chunk();
+  Maybe next_of_chunk() override;
   Maybe take(std::span<const uint8_t> header, std::span<const uint8_t> data);
 
-  ByteReader input_;
-  uint64_t byte_ = 0;  // of the record outside of chunks that was read last
-  bool ended_ = false;
   std::map<uint32_t, Connection> connections_;  // those with events
-  std::map<Compression, Decompressor> decompressors_;
   std::vector<uint8_t> header_;
   std::vector<uint8_t> data_;
-  std::span<const uint8_t> chunk_;  // what is left of the open chunk
 };
-
-Result<std::optional<RosMessage>> Rosbag::next() {
-  for (;;) {
-    if (!chunk_.empty()) {
-      if (auto message = next_of_chunk()) return message;
-      continue;
-    }
-    if (ended_) return Maybe();
-    auto message = next_record();
-    if (!message || *message) return message;
-  }
-}
-
-// The end of what can be read: the rest of the file is counted.
-Result<std::optional<RosMessage>> Rosbag::cut_short(std::string what) {
-  ended_ = true;
-  const auto rest = skip_block(input_, std::numeric_limits<uint64_t>::max());
-  if (!rest) return rest.error();
-  return damage(std::move(what), input_.consumed() - byte_);
-}
 
 Result<std::optional<RosMessage>> Rosbag::next_record() {
   byte_ = input_.consumed();
