@@ -70,6 +70,8 @@ struct BatchPush {
   uint row_bytes;      // of positions, per row of a cell; see kNotShown
   uint ring_bytes;     // of positions, per patch
   uint unused_position;
+  uint bands;          // see team.glsl
+  uint band_rows;      // of patches
 };
 
 // clear: the slots of all rings.

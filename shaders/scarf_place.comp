@@ -75,6 +75,8 @@ void main() {
   uint block = has_chunk ? lane.chunk * push.chunk_events : 0;
   const uint end = has_chunk ? min(block + push.chunk_events, push.events) : 0;
   const uint64_t t_first = packUint2x32(uvec2(push.t_first_low, push.t_first_high));
+  const uint band_begin = lane.band * push.band_rows;
+  const uint band_last = band_begin + push.band_rows - 1;
   // All teams of a subgroup leave a loop together, those that have nothing to do walk empty blocks: llvmpipe does not
   // keep what a loop computed for lanes that left it early. Loops end at their ends only, where a branch skips them on
   // CPU devices. Trips: see trips_per_block().
@@ -91,10 +93,13 @@ void main() {
       own.rows = ranges[row_entry(own.xy)];
       const uvec2 first = uvec2(own.columns, own.rows) & 0xFFFF;
       const uvec2 last = uvec2(own.columns, own.rows) >> 16;
-      bool walked = in_chunk && first.x <= last.x && first.y <= last.y;
+      const uint row_begin = max(first.y, band_begin);
+      const uint row_last = min(last.y, band_last);
+      bool walked = in_chunk && first.x <= last.x && row_begin <= row_last;
       if (push.prune != 0) {
         walked = walked && alive[walked ? lane.base + first.y * push.grid_x + first.x : 0] != 0;
       }
+      own.rows = row_begin | row_last << 16;
       left = team_ballot(lane, walked);
       block += kTeamLanes;
     } while (!any_lane(left != 0) && any_lane(block < end));

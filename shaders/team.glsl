@@ -21,6 +21,7 @@ const uint kTeamLanes = kTeamX * kTeamY;
 
 struct Lane {
   uint chunk;
+  uint band;
   uint index;  // within the team
   uint team;   // subgroup invocation of the team's first lane
   uint x;
@@ -31,17 +32,23 @@ struct Lane {
 
 // Consecutive teams may go to the same core, and the last chunks may have the most work. So every core gets a stripe of
 // chunks: the teams of stripe n take the chunks n, n + stripes, n + 2 * stripes, ...
-uint striped(uint team) {
+//
+// Where all rings together do not fit into a core's cache, a team stores in one band of rows of patches only, and other
+// teams walk the same chunk for the other bands. A core takes all chunks of its stripe for one band, then for the next,
+// and each core begins with another band.
+void take_work(uint team, inout Lane lane) {
   const uint per_stripe = (push.chunks + push.stripes - 1) / push.stripes;
-  const uint stripe = team / per_stripe;  // workgroups may have teams beyond the last
-  return stripe < push.stripes ? team % per_stripe * push.stripes + stripe : push.chunks;
+  const uint stripe = team / (per_stripe * push.bands);  // workgroups may have teams beyond the last
+  const uint turn = team % (per_stripe * push.bands);
+  lane.chunk = stripe < push.stripes ? turn % per_stripe * push.stripes + stripe : push.chunks;
+  lane.band = (turn / per_stripe + stripe * push.bands / push.stripes) % push.bands;
 }
 
 Lane this_lane() {
   Lane lane;
   const uint invocation = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
   const uint team = linear_workgroup() * (gl_WorkGroupSize.x / kTeamLanes) + invocation / kTeamLanes;
-  lane.chunk = striped(team);
+  take_work(team, lane);
   lane.index = gl_SubgroupInvocationID % kTeamLanes;
   lane.team = gl_SubgroupInvocationID - lane.index;
   lane.x = lane.index % kTeamX;

@@ -83,6 +83,9 @@ struct GpuOptions {
   uint32_t submission_events = 0;
   /// Events walked by one team of invocations; 0: chosen for the device. Never changes a result.
   uint32_t chunk_events = 0;
+  /// Bands of rows of patches that a core works on one after the other; 0: chosen for the device, at most 64.
+  /// Never changes a result.
+  uint32_t bands = 0;
 };
 
 /// Device time of one stage, summed over the submissions that were measured.

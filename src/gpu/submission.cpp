@@ -7,6 +7,7 @@ namespace scarf {
 namespace {
 
 constexpr uint32_t kMaxStagingSlots = 16;
+constexpr uint32_t kMaxBands = 64;
 constexpr uint32_t kMaxSubmissionEvents = 1u << 24;
 constexpr uint32_t kSubmissionEventsCpu = 1u << 18;
 constexpr uint32_t kSubmissionEventsGpu = 1u << 20;
@@ -24,6 +25,7 @@ Result<void> check_options(const GpuOptions& o) {
     return illegal("submission_events", o.submission_events, 0, kMaxSubmissionEvents);
   if (o.chunk_events > layout::kMaxChunkEvents)
     return illegal("chunk_events", o.chunk_events, 0, layout::kMaxChunkEvents);
+  if (o.bands > kMaxBands) return illegal("bands", o.bands, 0, kMaxBands);
   return {};
 }
 

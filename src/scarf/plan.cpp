@@ -34,6 +34,10 @@ constexpr uint32_t kTargetChunksGpu = 2048;
 
 constexpr uint64_t kPruneHitsPerSlot = 4;
 
+// Rings that are written in no order: of each one line of 64 bytes of slots and one of positions is in use. A
+// cache of a CPU's core holds about so many.
+constexpr uint32_t kRingsInCache = 8192;
+
 // Levels that do not change beyond those that travel as push constants.
 bool few(std::span<const uint8_t> levels) {
   constexpr size_t kLast = layout::kPushedLevels - 1;
@@ -87,6 +91,10 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
   plan.class_columns = pixel_classes(geometry.x).count;
   plan.class_rows = pixel_classes(geometry.y).count;
   plan.stripes = limits.cores;
+  const uint32_t rows = static_cast<uint32_t>(geometry.y.grid);
+  const uint32_t wanted_bands = limits.cpu ? ceil_div(plan.patches, kRingsInCache) : 1;
+  plan.band_rows = ceil_div(rows, std::min(rows, options.bands != 0 ? options.bands : wanted_bands));
+  plan.bands = ceil_div(rows, plan.band_rows);
   plan.cell_row_words = ceil_div(static_cast<uint32_t>(geometry.x.cell), 4);
   plan.position_groups = ceil_div(plan.capacity, layout::kSlotsPerGroup);
   plan.paints =

@@ -45,7 +45,9 @@ struct Plan {
 
   uint32_t class_columns = 1;  ///< classes of columns and of rows, class 0 included; see PixelClasses
   uint32_t class_rows = 1;
-  uint32_t stripes = 1;  ///< see shaders/team.glsl
+  uint32_t stripes = 1;  ///< see shaders/team.glsl; likewise the next two
+  uint32_t bands = 1;
+  uint32_t band_rows = 0;
 
   bool paints = false;           ///< 8-bit pictures come from the paint stage, which keeps them
   uint32_t cell_row_words = 0;   ///< of the positions that it needs; see kNotShown in shaders/layout.h
@@ -60,10 +62,10 @@ struct Plan {
   uint64_t table_words() const { return uint64_t{patches} * max_chunks; }
   /// Words of the counts per class of one chunk.
   uint32_t class_words() const { return class_columns * class_rows; }
+  /// Teams of the place stage.
+  uint64_t teams(uint32_t chunks) const { return uint64_t{ceil_div(chunks, stripes)} * stripes * bands; }
   /// Most invocations of the place stage, those of unfinished workgroups included.
-  uint64_t most_invocations() const {
-    return uint64_t{ceil_div(max_chunks, stripes) * stripes + teams_per_workgroup} * team_lanes();
-  }
+  uint64_t most_invocations() const { return (teams(max_chunks) + teams_per_workgroup) * team_lanes(); }
   /// Cuts a submission of `events` (at most submission_events).
   Chunking cut(uint32_t events) const;
 };

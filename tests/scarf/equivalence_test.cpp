@@ -60,6 +60,7 @@ TEST_F(Equivalence, RandomGeometries) {
     GpuOptions options;
     options.chunk_events = trial % 2 == 0 ? 0 : 1 + static_cast<uint32_t>(random() % 700);
     options.submission_events = trial % 3 == 0 ? 1 + static_cast<uint32_t>(random() % 3000) : 0;
+    options.bands = trial % 5 == 0 ? 0 : 1 + static_cast<uint32_t>(random() % 6);
     ASSERT_NO_FATAL_FAILURE(compare(geometry, make_stream(spread, sensor, 3000, random()), random, options));
   }
 }
@@ -174,6 +175,7 @@ TEST_P(UploadEquivalence, CutsSlotsAndChunksNeverChangeAByte) {
         options.staging_slots = slots;
         options.chunk_events = chunk_events;
         options.submission_events = submission;
+        options.bands = slots;
         auto device = device_scarf(geometry, options);
         for (size_t done = 0; done < events.size();) {
           const size_t n = std::min<size_t>(events.size() - done, 1 + random() % 6000);

@@ -113,6 +113,24 @@ TEST(Plan, FewerChunksWhereTheirCountsAreLarge) {
   EXPECT_EQ(large.target_chunks, 4u);
 }
 
+TEST(Plan, BandsCoverAllRowsAndAreManyOnlyWhereRingsAreMany) {
+  const vulkan::Limits cpu = limits_of(8, 60'000, true);
+  const Geometry small = *make_geometry(Preset::paper, {240, 180});
+  const Geometry large = *make_geometry(Preset::paper, {1280, 720});
+  EXPECT_EQ(make_plan(small, kLevels, cpu, {})->bands, 1u);
+  EXPECT_EQ(make_plan(large, kLevels, cpu, {})->bands, 2u);
+  EXPECT_EQ(make_plan(large, kLevels, limits_of(32, UINT32_MAX, false), {})->bands, 1u);
+  for (const Geometry& g : {small, large}) {
+    for (uint32_t bands = 1; bands <= 64; ++bands) {
+      const Plan plan = *make_plan(g, kLevels, cpu, {.bands = bands});
+      const auto rows = static_cast<uint32_t>(g.y.grid);
+      EXPECT_LE(plan.bands, bands);
+      EXPECT_GE(plan.bands * plan.band_rows, rows);
+      EXPECT_LT((plan.bands - 1) * plan.band_rows, rows);
+    }
+  }
+}
+
 TEST(Plan, RefusesOptionsOutOfRangeByName) {
   const Geometry g = *make_geometry(Preset::paper, {64, 48});
   const auto message = [&](GpuOptions options) {
@@ -125,6 +143,9 @@ TEST(Plan, RefusesOptionsOutOfRangeByName) {
   GpuOptions chunk;
   chunk.chunk_events = 32'769;
   EXPECT_EQ(message(chunk), "chunk_events is 32769, legal is 0 to 32768");
+  GpuOptions bands;
+  bands.bands = 65;
+  EXPECT_EQ(message(bands), "bands is 65, legal is 0 to 64");
   GpuOptions submission;
   submission.submission_events = (1u << 24) + 1;
   EXPECT_EQ(message(submission), "submission_events is 16777217, legal is 0 to 16777216");

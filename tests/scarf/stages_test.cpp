@@ -193,6 +193,7 @@ TEST_F(Stages, EqualTheirTwins) {
     SCOPED_TRACE(to_string(geometry));
     GpuOptions options;
     options.chunk_events = trial % 2 == 0 ? 0 : 100;
+    options.bands = trial % 4;
     ASSERT_NO_FATAL_FAILURE(use(geometry, options));
     const test::Spread spread = test::kSpreads[trial % std::size(test::kSpreads)];
     constexpr int64_t kFirst = -123'456'789'012;
