@@ -36,7 +36,7 @@ constexpr uint64_t kPruneHitsPerSlot = 4;
 
 // Rings that are written in no order: of each one line of 64 bytes of slots and one of positions is in use. A
 // cache of a CPU's core holds about so many.
-constexpr uint32_t kRingsInCache = 8192;
+constexpr uint32_t kRingsInCache = 4096;
 
 // Levels that do not change beyond those that travel as push constants.
 bool few(std::span<const uint8_t> levels) {

@@ -118,7 +118,7 @@ TEST(Plan, BandsCoverAllRowsAndAreManyOnlyWhereRingsAreMany) {
   const Geometry small = *make_geometry(Preset::paper, {240, 180});
   const Geometry large = *make_geometry(Preset::paper, {1280, 720});
   EXPECT_EQ(make_plan(small, kLevels, cpu, {})->bands, 1u);
-  EXPECT_EQ(make_plan(large, kLevels, cpu, {})->bands, 2u);
+  EXPECT_EQ(make_plan(large, kLevels, cpu, {})->bands, 3u);
   EXPECT_EQ(make_plan(large, kLevels, limits_of(32, UINT32_MAX, false), {})->bands, 1u);
   for (const Geometry& g : {small, large}) {
     for (uint32_t bands = 1; bands <= 64; ++bands) {
