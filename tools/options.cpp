@@ -208,23 +208,23 @@ Result<Implementation> make_reference(const StreamOptions& options, SensorSize s
   return implementation(behind_filters(std::move(made->representation), options.filters), name);
 }
 
-Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor) {
+Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor, const GpuOptions& gpu) {
   if (const auto wish = wish_of(options, sensor); !wish) return wish.error();  // before a device is woken
   const auto context = GpuContext::create(options.device);
   if (!context) return context.error();
-  return make_gpu(*context, options, sensor);
+  return make_gpu(*context, options, sensor, gpu);
 }
 
 Result<Implementation> make_gpu(const std::shared_ptr<GpuContext>& context, const StreamOptions& options,
-                                SensorSize sensor) {
+                                SensorSize sensor, const GpuOptions& gpu) {
   const auto wish = wish_of(options, sensor);
   if (!wish) return wish.error();
   const std::string& name = context->device().name;
   if (wish->grid) {
-    return implementation(make_gpu_scarf(context, *wish->grid, options.accumulation, {}, options.filters),
+    return implementation(make_gpu_scarf(context, *wish->grid, options.accumulation, gpu, options.filters),
                           name);
   }
-  return implementation(make_gpu_representation(context, wish->parameters, sensor, {}, options.filters),
+  return implementation(make_gpu_representation(context, wish->parameters, sensor, gpu, options.filters),
                         name);
 }
 

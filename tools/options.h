@@ -88,10 +88,10 @@ struct Implementation {
   std::string name;
 };
 Result<Implementation> make_reference(const StreamOptions& options, SensorSize sensor);
-Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor);
+Result<Implementation> make_gpu(const StreamOptions& options, SensorSize sensor, const GpuOptions& gpu = {});
 /// On a device that is in use already, and that other streams may share.
 Result<Implementation> make_gpu(const std::shared_ptr<GpuContext>& context, const StreamOptions& options,
-                                SensorSize sensor);
+                                SensorSize sensor, const GpuOptions& gpu = {});
 /// One line for each noise filter: what became of the events. Errors: whatever the representation returned.
 Result<std::string> filter_lines(const StreamOptions& options, Representation& representation);
 /// The one that the options choose.

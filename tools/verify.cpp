@@ -1,6 +1,7 @@
 // scarf verify: the CPU reference and the device on the same stream, compared after every batch.
 #include <filesystem>
 #include <iostream>
+#include <tuple>
 
 #include "core/text.h"
 #include "tools/commands.h"
@@ -16,6 +17,7 @@ struct VerifyOptions {
   std::optional<uint64_t> max_events;
   std::string failing;  ///< where the failing prefix goes
   bool decode_on_device = false;
+  GpuOptions plan;
 };
 
 // None where every bit must be the same.
@@ -104,7 +106,7 @@ Result<int> verify(const VerifyOptions& options) {
   if (!recording) return recording.error();
   const auto reference = make_reference(options.stream, recording->sensor);
   if (!reference) return reference.error();
-  const auto device = make_gpu(options.stream, recording->sensor);
+  const auto device = make_gpu(options.stream, recording->sensor, options.plan);
   if (!device) return device.error();
 
   Representation& a = *reference->representation;
@@ -151,6 +153,15 @@ void add_verify(CLI::App& program, Command& command) {
                     "Stop after so many events");
   app->add_option("--failing", options->failing,
                   "Text recording for the failing prefix, default NAME.failing.txt in the current folder");
+  const std::string plan = "How work is cut; never changes a result, 0 is chosen for the device";
+  for (const auto& [name, number, help] :
+       {std::tuple("--submission-events", &GpuOptions::submission_events, "Events per submission"),
+        std::tuple("--chunk-events", &GpuOptions::chunk_events, "Events of scarf walked by one team"),
+        std::tuple("--bands", &GpuOptions::bands, "Bands of rows of scarf's patches")}) {
+    app->add_option_function<uint32_t>(
+           name, [options, number = number](uint32_t value) { options->plan.*number = value; }, help)
+        ->group(plan);
+  }
   app->callback([&command, options] {
     if (options->failing.empty()) {
       options->failing = std::filesystem::path(options->stream.file).stem().string() + ".failing.txt";

@@ -395,6 +395,13 @@ TEST_F(Program, VerifiesTheDevice) {
   EXPECT_THAT(outcome.out, StartsWith("identical: 20000 events, "));
   EXPECT_THAT(run("verify " + file + " --batch 1000 --max-events 4500").out,
               StartsWith("identical: 4500 events, 5 batches, "));
+  for (const std::string plan : {"--bands 3", "--bands 64 --chunk-events 1", "--submission-events 777",
+                                 "--chunk-events 100 --submission-events 5000"}) {
+    EXPECT_THAT(run("verify " + file + " --batch 6000 " + plan).out,
+                StartsWith("identical: 20000 events, 4 "))
+        << plan;
+  }
+  EXPECT_THAT(run("verify " + file + " --bands 65").err, HasSubstr("bands is 65, legal is 0 to 64"));
   EXPECT_EQ(run("digest " + file).out, run("digest --cpu " + file).out);
 }
 
