@@ -53,7 +53,8 @@ std::vector<StageWork> push_work(const Plan& plan, const Hits& hits) {
   };
   if (chunking.prune) all.push_back(work("prune", 2 * entries * kWord));
   const uint64_t pruned = chunking.prune ? std::min<uint64_t>(hits.events, entries) * kWord : 0;
-  all.push_back(work("place", events + pruned + std::min(hits.hits, entries) * kWord * kReadAndWritten +
+  all.push_back(work("place", plan.bands * (events + pruned) +
+                                  std::min(hits.hits, entries) * kWord * kReadAndWritten +
                                   hits.stored * stored_bytes));
   return all;
 }

@@ -31,23 +31,23 @@ struct StageWork {
   double atomics = 0;
 };
 
-/// Of one submission of the events that were counted:
-///   clear  counts of all chunks and classes written
-///   count  events read, an atomic each; every count that is not 0 read and written, at most one per event
-///   sum    counts read and written, twice
-///   scan   sums read; entries written, read and written; heads and totals read and written; changed marks
-///   written prune  table read, its result written place  events read; result of prune and entries of the
-///   table read, entries written, each at most once; slots
-///          written, and positions if the plan paints
+/// Of one submission of the events that were counted.
+/// - clear: counts of all chunks and classes written
+/// - count: events read, an atomic each; counts read and written, at most one per event
+/// - sum: counts read and written, twice
+/// - scan: sums read; entries written, read and written; heads and totals read and written; marks of changed
+///   patches written
+/// - prune: entries read, the result written
+/// - place: for each band events and the result of prune read; entries read and written, each at most once;
+///   slots written, and positions if the plan paints
 std::vector<StageWork> push_work(const Plan& plan, const Hits& hits);
 
 /// Of one 8-bit image, its copy for the host included. `hits`: of the events since the last one.
-///   paint   marks read; of changed patches mark and cell written and positions read
-///   render  counts set to 0; all slots and totals read; for each slot, at most one per pixel, its count read
-///   and
-///           written
-///   tone    counts read, picture written
-///   copy    picture read and written
+/// - paint: marks read; of changed patches mark and cell written and positions read
+/// - render: counts set to 0; all slots and totals read; for each slot, at most one per pixel, its count read
+///   and written
+/// - tone: counts read, picture written
+/// - copy: picture read and written
 std::vector<StageWork> image_work(const Geometry& geometry, const Plan& plan, const Hits& hits);
 
 }  // namespace scarf::bench

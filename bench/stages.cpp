@@ -57,6 +57,8 @@ uint64_t dispatches_of(std::span<const StageTime> times, std::string_view stage)
 
 Result<std::vector<StageFigure>> measure_stages(GpuScarf& scarf, const Plan& plan,
                                                 std::span<const Event> events) {
+  // Times count once their work is done.
+  if (auto r = scarf.finish(); !r) return r.error();
   const auto before = scarf.stage_times();
   if (auto r = push_and_render(scarf, events, kEventsPerImage, kEventsPerImage); !r) return r.error();
   if (auto r = scarf.finish(); !r) return r.error();

@@ -71,6 +71,13 @@ TEST(StageWork, OfAPushThatIsNotPruned) {
   EXPECT_EQ(bytes_of(all, "place"), 2 * 16 + 3 * 8 + 3 * 8);
 }
 
+TEST(StageWork, EachBandReadsTheEventsAgain) {
+  const Hits hits = {.events = 20, .hits = 30, .stored = 9, .patches = 3};
+  Plan plan = plan_of(/*paints=*/true);
+  plan.bands = 2;
+  EXPECT_EQ(bytes_of(push_work(plan, hits), "place"), 2 * (20 * 16 + 8 * 4) + 8 * 8 + 9 * 9);
+}
+
 TEST(StageWork, OfImages) {
   const Hits hits = {.events = 20, .hits = 30, .stored = 9, .patches = 3};
   const auto painted = image_work(kGeometry, plan_of(/*paints=*/true), hits);
