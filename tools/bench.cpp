@@ -49,7 +49,10 @@ void add_bench(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("bench", "Measure the device beside the reference");
   auto options = std::make_shared<BenchOptions>();
   app->add_flag("--quick", options->quick, "Fewer events and repeats");
-  CLI::Option* stages = app->add_flag("--stages", options->stages, "Device time of each stage");
+  CLI::Option* stages =
+      app->add_flag("--stages", options->stages,
+                    "Device time of each stage; of scarf also the bytes that it has to move "
+                    "and the fractions of what the device can do");
   CLI::Option* wire =
       app->add_flag(
              "--wire", options->wire,

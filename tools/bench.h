@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,7 @@ struct BenchOptions {
   bool offload = false;
   bool io = false;
   bool wire = false;
-  std::vector<std::string> recordings;            ///< with `io` and `wire`; none: what scarf makes itself
+  std::vector<std::string> recordings;  ///< with `io` and `wire`; none: what scarf makes itself
   bool replay = false;
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
@@ -33,6 +34,7 @@ struct BenchOptions {
 };
 
 void print_ceilings(const bench::Ceilings& ceilings);
+nlohmann::json as_json(const bench::Ceilings& ceilings);
 
 /// The device beside the reference on synthetic scenes: pushes with an image after each. Returns the exit
 /// code.

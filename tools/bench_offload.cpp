@@ -11,14 +11,6 @@ namespace {
 
 constexpr SensorSize kSensors[] = {{240, 180}, {1280, 720}};
 
-nlohmann::json as_json(const bench::Ceilings& c) {
-  return {{"copy_bytes_per_s", c.copy_bytes_per_s},
-          {"atomics_per_s", c.atomics_per_s},
-          {"upload_bytes_per_s", c.upload_bytes_per_s},
-          {"readback_bytes_per_s", c.readback_bytes_per_s},
-          {"submission_us", c.submission_us}};
-}
-
 nlohmann::json as_json(SensorSize sensor, const bench::Offload& o) {
   nlohmann::json stages = nlohmann::json::array();
   for (const StageTime& time : o.stages) {
@@ -48,6 +40,14 @@ void print_ceilings(const bench::Ceilings& c) {
       "us\n",
       c.copy_bytes_per_s * 1e-9, c.atomics_per_s * 1e-9, c.upload_bytes_per_s * 1e-9,
       c.readback_bytes_per_s * 1e-9, c.submission_us);
+}
+
+nlohmann::json as_json(const bench::Ceilings& c) {
+  return {{"copy_bytes_per_s", c.copy_bytes_per_s},
+          {"atomics_per_s", c.atomics_per_s},
+          {"upload_bytes_per_s", c.upload_bytes_per_s},
+          {"readback_bytes_per_s", c.readback_bytes_per_s},
+          {"submission_us", c.submission_us}};
 }
 
 Result<int> bench_offload(const BenchOptions& options) {

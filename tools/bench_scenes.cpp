@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "scarf/reference.h"
 #include "tools/bench.h"
+#include "tools/bench_stages.h"
 #include "tools/files.h"
 
 namespace scarf::tools {
@@ -89,13 +90,22 @@ Result<bench::PushTime> time_reference(const Parameters& parameters, SensorSize 
 struct DeviceTime {
   Result<bench::PushTime> time;
   std::string limited_by;
+  std::vector<bench::StageFigure> stages;  // of SCARF, if they were asked for
 };
 DeviceTime time_device(std::shared_ptr<GpuContext> context, const Parameters& parameters, SensorSize sensor,
-                       std::span<const Event> stream, int repeats, bool print_stages) {
-  auto gpu = make_gpu_representation(std::move(context), parameters, sensor);
-  if (!gpu) return {gpu.error(), ""};
+                       std::span<const Event> stream, int repeats, bool stages) {
+  auto gpu = make_gpu_representation(context, parameters, sensor);
+  if (!gpu) return {gpu.error(), "", {}};
   auto time = bench::time_push(**gpu, stream, repeats);
-  return {time, time ? limiting_stage(**gpu, print_stages) : ""};
+  if (!time) return {time, "", {}};
+  auto* const scarf = dynamic_cast<GpuScarf*>(gpu->get());
+  DeviceTime device{time, limiting_stage(**gpu, stages && scarf == nullptr), {}};
+  if (!stages || scarf == nullptr) return device;
+  auto figures = stage_figures(*context, *scarf, std::get<ScarfParameters>(parameters),
+                               stream.first(std::min<size_t>(stream.size(), time->events)));
+  if (!figures) return {figures.error(), "", {}};
+  device.stages = *std::move(figures);
+  return device;
 }
 
 std::string number(const Result<bench::PushTime>& time, double bench::PushTime::*figure, int decimals) {
@@ -137,6 +147,13 @@ Result<int> bench_scenes(const BenchOptions& options) {
             << events << " events, one u8 image per " << bench::kEventsPerImage << ", median of " << repeats
             << "\n"
             << "ns per event, images included; us per query\n";
+  std::optional<bench::Ceilings> ceilings;
+  if (options.stages) {
+    const auto measured = bench::measure_ceilings(**context);
+    if (!measured) return measured.error();
+    ceilings = *measured;
+    print_ceilings(*ceilings);
+  }
   std::printf("%-10s %-11s %-13s %9s %9s %7s %9s %9s  %s\n", "sensor",
               options.representation.empty() ? "preset" : "picture", "scene", "reference", "device", "ratio",
               "ref query", "dev query", "limited by");
@@ -151,12 +168,16 @@ Result<int> bench_scenes(const BenchOptions& options) {
         print_row(variant, scene, sensor, reference, gpu);
         results.push_back(row("reference", variant, scene, sensor, reference));
         results.push_back(row("gpu", variant, scene, sensor, gpu.time));
+        if (gpu.stages.empty()) continue;
+        print_stages(gpu.stages, *ceilings);
+        results.back()["stages"] = stages_as_json(gpu.stages, *ceilings);
       }
     }
   }
   if (!options.json.empty()) {
-    const nlohmann::json report = {
+    nlohmann::json report = {
         {"device", device.name}, {"driver", device.driver}, {"commit", SCARF_COMMIT}, {"results", results}};
+    if (ceilings) report["ceilings"] = as_json(*ceilings);
     if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
   }
   return 0;

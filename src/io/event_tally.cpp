@@ -29,12 +29,14 @@ size_t EventTally::keep(std::span<Event> events) {
 // block is so, and this loop has neither a branch nor a store.
 bool EventTally::is_plain(std::span<const Event> events) const {
   int64_t previous = previous_;
-  bool plain = true;
+  bool in_order = true;
+  int32_t margins = 0;  // negative once one of them was
   for (const Event& e : events) {
-    plain &= (e.t >= previous) & (int32_t{e.x} < limit_.width) & (int32_t{e.y} < limit_.height);
+    in_order &= e.t >= previous;
+    margins |= (limit_.width - 1 - e.x) | (limit_.height - 1 - e.y);
     previous = e.t;
   }
-  return plain;
+  return in_order && margins >= 0;
 }
 
 size_t EventTally::keep_all(std::span<Event> events) {

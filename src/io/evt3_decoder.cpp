@@ -3,23 +3,13 @@
 #include <algorithm>
 
 #include "core/little_endian.h"
+#include "io/evt3_common_words.h"
 #include "io/put_event.h"
 
 namespace scarf::evt3 {
 namespace {
 
 constexpr size_t kWordBytes = 2;
-
-// yes ? a : b, in a form that compilers do not turn into a branch.
-uint32_t select(bool yes, uint32_t a, uint32_t b) {
-  return b ^ ((a ^ b) & (0 - uint32_t{yes}));
-}
-
-constexpr uint32_t kSingles = 1 << kAddrY | 1 << kAddrX | 1 << kTimeLow;
-
-bool is_single(uint32_t word) {
-  return (kSingles >> (word >> 12) & 1) != 0;
-}
 
 uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
   return load_little_endian<uint16_t>(bytes.data() + at);
@@ -60,40 +50,20 @@ std::optional<int64_t> Clock::first_high() const {
 }
 
 void EventDecoder::set_vector(uint32_t mask, uint32_t length) {
-  // Beyond every sensor the base stops, so that coordinates never wrap back into it.
-  constexpr uint32_t kLastBase = 0xF000;
   vector_.bits = brightness_ ? mask : 0;
   put_event(vector_.first, clock_.time(), base_x_, y_, base_p_);
-  base_x_ = std::min(base_x_ + length, kLastBase);
+  base_x_ = std::min(base_x_ + length, kLastVectorX);
 }
 
-// The words that most streams consist of: rows, columns, times. They come in an order that no branch
-// predictor learns, hence without a branch: an event is written for every word, though counted for columns
-// only. Returns the bytes taken: up to the first other word, but TIME_HIGH with the value it had.
-size_t EventDecoder::decode_singles(std::span<const uint8_t> bytes, std::span<Event> out, size_t& events) {
-  const uint32_t repeated_high = uint32_t{kTimeHigh} << 12 | clock_.high();
-  const int64_t base = clock_.base();
-  uint32_t y = y_;
-  uint32_t low = clock_.low();
-  size_t count = 0;
-  // Each word is at most one event, so that there is always room.
-  const size_t end = std::min(bytes.size() / kWordBytes, out.size()) * kWordBytes;
-  size_t at = 0;
-  for (; at < end; at += kWordBytes) {
-    const uint32_t word = word_at(bytes, at);
-    const uint32_t type = word >> 12;
-    // One branch for both conditions: which of them holds is not predictable either.
-    const uint32_t other = ~kSingles >> type & uint32_t{word != repeated_high};
-    if (other != 0) break;
-    put_event(out[count], base | low, word & kCoordinateMask, y, word >> 11 & 1);
-    count += type == kAddrX ? 1 : 0;
-    y = select(type == kAddrY, word & kCoordinateMask, y);
-    low = select(type == kTimeLow, word & kPayloadMask, low);
-  }
-  y_ = y;
-  clock_.set_low(low);
-  events = count;
-  return at;
+size_t EventDecoder::decode_common(std::span<const uint8_t> bytes, std::span<Event> out, size_t& events) {
+  Said said{clock_.base(), clock_.high(), clock_.low(), y_, base_x_, base_p_};
+  const CommonWords decoded = decode_common_words(bytes, out, said);
+  clock_.set_low(said.low);
+  y_ = said.y;
+  base_x_ = said.vector_x;
+  base_p_ = said.vector_p;
+  events = decoded.events;
+  return decoded.bytes;
 }
 
 // The words of a row that is not of brightness changes, of which only times matter. Returns the bytes taken:
@@ -102,18 +72,16 @@ size_t EventDecoder::skip_row(std::span<const uint8_t> bytes) {
   size_t at = 0;
   for (; at + kWordBytes <= bytes.size(); at += kWordBytes) {
     const uint32_t word = word_at(bytes, at);
-    const uint32_t type = word >> 12;
-    if (type == kAddrY) {
+    if (word >> 12 == kAddrY) {
       brightness_ = true;
       break;
     }
-    if (type == kTimeLow) clock_.set_low(word & kPayloadMask);
-    if (!is_single(word)) take(word);
+    take(word);
   }
   return at;
 }
 
-// A word that is not of decode_singles.
+// A word that decode_common leaves, or one of a row that is not of brightness changes.
 void EventDecoder::take(uint32_t word) {
   switch (word >> 12) {
     case kOtherAddrY:
@@ -129,9 +97,14 @@ void EventDecoder::take(uint32_t word) {
     case kVect8:
       set_vector(word & 0xFF, 8);
       break;
+    case kTimeLow:
+      clock_.set_low(word & kPayloadMask);
+      break;
     case kTimeHigh:
       clock_.set_high(word & kPayloadMask);
       break;
+    case kAddrY:
+    case kAddrX:
     case kContinued4:
     case kTrigger:
     case kImu:
@@ -152,12 +125,11 @@ EventDecoder::Decoded EventDecoder::decode(std::span<const uint8_t> bytes, std::
       continue;
     }
     size_t events = 0;
-    at += decode_singles(bytes.subspan(at), out.subspan(count), events);
+    at += decode_common(bytes.subspan(at), out.subspan(count), events);
     count += events;
-    for (; brightness_ && count < out.size() && at + kWordBytes <= bytes.size(); at += kWordBytes) {
-      const uint32_t word = word_at(bytes, at);
-      if (is_single(word)) break;
-      take(word);
+    if (count < out.size() && at + kWordBytes <= bytes.size()) {
+      take(word_at(bytes, at));
+      at += kWordBytes;
       count += vector_.write(out.subspan(count));
     }
   }

@@ -73,7 +73,7 @@ class EventDecoder {
   uint64_t unknown_words() const { return unknown_; }
 
  private:
-  size_t decode_singles(std::span<const uint8_t> bytes, std::span<Event> out, size_t& events);
+  size_t decode_common(std::span<const uint8_t> bytes, std::span<Event> out, size_t& events);
   size_t skip_row(std::span<const uint8_t> bytes);
   void take(uint32_t word);
   void set_vector(uint32_t mask, uint32_t length);
