@@ -10,7 +10,7 @@ namespace {
 
 // Whether the stage is none of the kernels of a push: it copies, or answers a query.
 bool beside_pushes(const StageTime& time) {
-  static constexpr std::string_view kOthers[] = {"upload", "render", "image", "tone", "copy"};
+  static constexpr std::string_view kOthers[] = {"reset", "upload", "render", "paint", "tone", "copy"};
   return std::find(std::begin(kOthers), std::end(kOthers), time.stage) != std::end(kOthers);
 }
 
