@@ -34,7 +34,7 @@ endfunction()
 
 scarf_component(scarf_core HEADERS encoding.h event.h filter.h geometry.h image.h parameters.h pending.h read_report.h representation.h result.h scarf.h)
 scarf_component(scarf_vulkan)
-scarf_component(scarf_gpu HEADERS gpu.h gpu_decoding.h gpu_encoding.h replay.h)
+scarf_component(scarf_gpu HEADERS gpu.h gpu_decoding.h gpu_encoding.h gpu_group.h replay.h)
 scarf_component(scarf_cpu_ref HEADERS reference.h)
 scarf_component(scarf_simulate HEADERS simulate.h)
 # Sets of their own: only who asks for these components needs their libraries.

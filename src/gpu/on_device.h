@@ -1,7 +1,9 @@
 // What every representation on a device has in common: it is fed through a Stream, perhaps behind filters.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -22,11 +24,20 @@ struct Feed {
                              std::span<const FilterParameters> filters);
 };
 
+/// How a representation's u8_image() is recorded. May outlive the representation, not its stream.
+struct U8Picture {
+  std::function<Result<Answer<Image<uint8_t>>>(Query& query, const StreamFacts& facts,
+                                               std::optional<int64_t> now)>
+      record;
+  bool changes_state = false;  ///< see Stream::query
+};
+
 /// What is fed through a Stream.
 class StreamFed {
  public:
   virtual ~StreamFed() = default;
   virtual std::shared_ptr<Stream> stream() const = 0;
+  virtual U8Picture u8_picture() const = 0;
 };
 
 /// Implements all of GpuRepresentation but its own queries, for an Interface derived from it.

@@ -16,8 +16,6 @@ using vulkan::MemoryUse;
 
 namespace {
 
-constexpr size_t kIdleLimit = 32;  // command buffers in flight before a call waits for one
-
 StreamFacts with(StreamFacts facts, const CheckedBatch& batch) {
   facts.first = batch.t_first;
   facts.outside += batch.outside;
@@ -34,23 +32,19 @@ uint64_t Query::memory_bytes() const {
   return bytes;
 }
 
-template <class T>
-Result<std::unique_ptr<T>> Stream::Pool<T>::take(const Make& make) {
-  for (size_t i = 0; i < idle_.size(); ++i) {
-    const auto done = compute_of(*idle_[i]).done();
-    if (!done) return done.error();
-    if (*done) return take_at(i);
+Result<void> Query::copy_back(vulkan::Device& device, std::span<const Part> parts, size_t first) {
+  if (results.size() < first + parts.size()) results.resize(first + parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    Buffer& result = results[first + i];
+    if (result.size() < parts[i].bytes) {
+      auto buffer = Buffer::create(device, "the result for the host", parts[i].bytes, MemoryUse::readback);
+      if (!buffer) return buffer.error();
+      result = std::move(*buffer);
+    }
+    commands.copy(*parts[i].buffer, 0, result, 0, parts[i].bytes);
   }
-  if (idle_.size() < kIdleLimit) return make();
-  if (auto r = compute_of(*idle_.front()).wait(); !r) return r.error();
-  return take_at(0);
-}
-
-template <class T>
-std::unique_ptr<T> Stream::Pool<T>::take_at(size_t i) {
-  std::unique_ptr<T> object = std::move(idle_[i]);
-  idle_.erase(idle_.begin() + static_cast<std::ptrdiff_t>(i));
-  return object;
+  if (!parts.empty()) commands.mark("copy");
+  return {};
 }
 
 Result<std::shared_ptr<Stream>> Stream::create(std::shared_ptr<GpuContext> context,
@@ -176,10 +170,9 @@ Result<void> Stream::reset() {
   }
   auto commands = take_commands();
   if (!commands) return commands.error();
-  Commands& c = (*commands)->compute;
-  if (auto r = c.begin(); !r) return r;
-  pipeline_->record_reset(c);
-  if (auto r = submit(c); !r) {
+  if (auto r = (*commands)->begin(); !r) return r;
+  pipeline_->record_reset((*commands)->compute);
+  if (auto r = submit(**commands); !r) {
     failure_ =
         Error{r.error().code, text("the stream is not empty since a reset failed: ", r.error().message)};
     return r;
@@ -196,18 +189,9 @@ Result<void> Stream::reset() {
 
 std::vector<StageTime> Stream::stage_times() {
   std::lock_guard lock(mutex_);
-  // Objects that are still lent out or in flight are counted when they are used again.
-  const auto collect_idle = [this](auto& pool) {
-    for (auto& object : pool.idle()) {
-      const auto done = compute_of(*object).done();
-      if (done && *done) collect(compute_of(*object));
-    }
-  };
-  collect_idle(push_pool_);
-  for (auto& pool : query_pools_) collect_idle(pool);
-  std::vector<StageTime> times;
-  for (const auto& [stage, time] : stage_times_) times.push_back(time);
-  return times;
+  stage_times_.collect_idle(push_pool_);
+  for (const auto& pool : query_pools_) stage_times_.collect_idle(pool);
+  return stage_times_.all();
 }
 
 uint64_t Stream::memory_bytes() {
@@ -312,73 +296,86 @@ Result<void> Stream::submit_gathered() {
   return words_ != nullptr && words_->holds_words() ? words_->settle_all() : submit_open();
 }
 
+// For submitters of several streams: as prepare_open(). Words are submitted here.
+Result<bool> Stream::prepare_gathered() {
+  if (auto r = usable(); !r) return r.error();
+  if (words_ == nullptr || !words_->holds_words()) return prepare_open();
+  if (auto r = words_->settle_all(); !r) return r.error();
+  return false;
+}
+
 // Submits the gathered events, if there are any. If that fails they stay where they are.
 Result<void> Stream::submit_open() {
-  StagingSlot& s = staging_[open_];
-  if (s.begin == s.fill) return {};
-  if (auto r = pipeline_->prepare_push(s.fill - s.begin); !r) return r;
+  const auto any = prepare_open();
+  if (!any) return any.error();
+  if (!*any) return {};
   auto commands = take_commands();
   if (!commands) return commands.error();
-  const Result<void> submitted = submit_push(**commands, s);
+  const auto submitted = [&]() -> Result<void> {
+    if (auto r = begin_with_upload(**commands, [this](Commands& c) { record_copies(c); }); !r) return r;
+    record_open((*commands)->compute);
+    return submit(**commands);
+  }();
   // Also after a failure: the transfer may be in flight.
   push_pool_.give_back(std::move(*commands));
   if (!submitted) return submitted;
+  open_is_submitted();
+  return {};
+}
+
+Result<bool> Stream::prepare_open() {
+  StagingSlot& s = staging_[open_];
+  if (s.begin == s.fill) return false;
+  if (auto r = pipeline_->prepare_push(s.fill - s.begin); !r) return r.error();
+  if (packed()) s.part = s.packer.part();
+  return true;
+}
+
+void Stream::record_copies(Commands& commands) const {
+  const StagingSlot& s = staging_[open_];
+  const auto copy = [&](size_t begin, size_t words) {
+    const uint64_t offset = begin * sizeof(uint32_t);
+    commands.copy(s.memory.host, offset, s.memory.device, offset, words * sizeof(uint32_t));
+  };
+  copy(s.part.table_begin, s.part.table_words);
+  copy(s.part.data_begin, s.part.data_words);
+}
+
+void Stream::record_open(Commands& commands) {
+  StagingSlot& s = staging_[open_];
+  const uint32_t count = s.fill - s.begin;
+  if (!packed()) {
+    pipeline_->record_push(commands, *s.binding, s.begin, count, facts_);
+    return;
+  }
+  unpacker_.record(commands, s.unpack, s.part.push);
+  pipeline_->record_push(commands, *unpacked_binding_, 0, count, facts_);
+}
+
+void Stream::open_is_submitted() {
+  StagingSlot& s = staging_[open_];
   s.last_use = last_submission_;
   s.begin = s.fill;
   if (packed()) s.packer.end_part();
   if (!acquired_) advance();
-  return {};
 }
 
-Result<void> Stream::submit_push(PushCommands& commands, StagingSlot& s) {
-  if (packed()) return submit_packed(commands, s);
-  if (auto r = begin_with_upload(commands, s.memory, {}); !r) return r;
-  pipeline_->record_push(commands.compute, *s.binding, s.begin, s.fill - s.begin, facts_);
-  return submit(commands);
-}
-
-Result<void> Stream::submit_packed(PushCommands& commands, StagingSlot& s) {
-  const EventPacker::Part part = s.packer.part();
-  const auto range = [](size_t begin, size_t words) {
-    return Range{begin * sizeof(uint32_t), words * sizeof(uint32_t)};
-  };
-  if (auto r = begin_with_upload(
-          commands, s.memory,
-          {range(part.table_begin, part.table_words), range(part.data_begin, part.data_words)});
-      !r) {
-    return r;
-  }
-  unpacker_.record(commands.compute, s.unpack, part.push);
-  pipeline_->record_push(commands.compute, *unpacked_binding_, 0, s.fill - s.begin, facts_);
-  return submit(commands);
-}
-
-// Begins `commands`: shaders in what is recorded behind may read the bytes.
-Result<void> Stream::begin_with_upload(PushCommands& commands, const StagedBuffer& memory,
-                                       std::initializer_list<Range> ranges) {
-  const auto copy = [&](Commands& c) {
-    for (const Range& r : ranges) c.copy(memory.host, r.offset, memory.device, r.offset, r.bytes);
-  };
-  commands.transferred = 0;
-  if (upload_ == Upload::transfer_queue) {
-    Commands& t = commands.transfer;
-    if (auto r = t.wait(); !r) return r;
-    if (auto r = t.begin(); !r) return r;
-    copy(t);
-    if (auto r = t.submit(); !r) return r;
-    commands.transferred = last_transfer_ = t.value();
-  }
-  if (auto r = commands.compute.begin(); !r) return r;
-  if (upload_ == Upload::staged) {
-    copy(commands.compute);
-    commands.compute.barrier();
-    commands.compute.mark("upload");
-  }
-  return {};
+Result<void> Stream::begin_with_upload(PushCommands& commands, const std::function<void(Commands&)>& copy) {
+  const auto begun = commands.begin(upload_, copy);
+  if (commands.transferred != 0) last_transfer_ = commands.transferred;
+  return begun;
 }
 
 Result<void> Stream::submit(PushCommands& commands) {
-  return submit(commands.compute, commands.transferred);
+  if (auto r = commands.submit(device_); !r) return r;
+  last_submission_ = commands.compute.value();
+  return {};
+}
+
+Result<void> Stream::submit(Query& query) {
+  if (auto r = query.commands.submit(); !r) return r;
+  last_submission_ = query.commands.value();
+  return {};
 }
 
 // Moves on to the next slot if that is free, so that the next batch does not have to fit into what is left
@@ -391,20 +388,9 @@ void Stream::advance() {
   empty(staging_[next]);
 }
 
-Result<std::unique_ptr<Stream::PushCommands>> Stream::take_commands() {
-  auto commands = push_pool_.take([this]() -> Result<std::unique_ptr<PushCommands>> {
-    auto made = std::make_unique<PushCommands>();
-    auto compute = Commands::create(device_, device_.compute());
-    if (!compute) return compute.error();
-    made->compute = std::move(*compute);
-    if (upload_ == Upload::transfer_queue) {
-      auto transfer = Commands::create(device_, device_.transfer());
-      if (!transfer) return transfer.error();
-      made->transfer = std::move(*transfer);
-    }
-    return made;
-  });
-  if (commands) collect((*commands)->compute);
+Result<std::unique_ptr<PushCommands>> Stream::take_commands() {
+  auto commands = push_pool_.take([this] { return PushCommands::create(device_, upload_); });
+  if (commands) stage_times_.collect((*commands)->compute);
   return commands;
 }
 
@@ -416,44 +402,8 @@ Result<std::unique_ptr<Query>> Stream::take_query(QueryKind kind) {
     made->commands = std::move(*commands);
     return made;
   });
-  if (query) collect((*query)->commands);
+  if (query) stage_times_.collect((*query)->commands);
   return query;
-}
-
-// Copies the parts into memory of the query, which grows as needed.
-Result<void> Stream::copy_back(Query& query, std::span<const Part> parts) {
-  if (query.results.size() < parts.size()) query.results.resize(parts.size());
-  for (size_t i = 0; i < parts.size(); ++i) {
-    Buffer& result = query.results[i];
-    if (result.size() < parts[i].bytes) {
-      auto buffer = Buffer::create(device_, "the result for the host", parts[i].bytes, MemoryUse::readback);
-      if (!buffer) return buffer.error();
-      result = std::move(*buffer);
-    }
-    query.commands.copy(*parts[i].buffer, 0, result, 0, parts[i].bytes);
-  }
-  if (!parts.empty()) query.commands.mark("copy");
-  return {};
-}
-
-// `transferred`: the place in the transfer queue's timeline to wait for; 0: none.
-Result<void> Stream::submit(Commands& c, uint64_t transferred) {
-  const vulkan::Queue* const wait_queue = transferred == 0 ? nullptr : &device_.transfer();
-  if (auto r = c.submit(wait_queue, transferred); !r) return r;
-  last_submission_ = c.value();
-  return {};
-}
-
-// Times of finished commands. A failure here loses a measurement, not a result.
-void Stream::collect(Commands& c) {
-  const auto spans = c.take_times();
-  if (!spans) return;
-  for (const vulkan::StageSpan& span : *spans) {
-    StageTime& time = stage_times_[std::string(span.stage)];
-    time.stage = span.stage;
-    time.dispatches += 1;
-    time.nanoseconds += span.nanoseconds;
-  }
 }
 
 template <class T>
@@ -482,8 +432,8 @@ Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_s
     if (auto r = q.commands.begin(); !r) return r.error();
     auto answer = record(q, facts_);
     if (!answer) return answer.error();
-    if (auto r = copy_back(q, answer->parts); !r) return r.error();
-    if (auto r = submit(q.commands); !r) return changes_state ? fail(r.error()) : r.error();
+    if (auto r = q.copy_back(device_, answer->parts); !r) return r.error();
+    if (auto r = submit(q); !r) return changes_state ? fail(r.error()) : r.error();
     return answer;
   }();
   if (!recorded) {

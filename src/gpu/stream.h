@@ -5,17 +5,18 @@
 #include <atomic>
 #include <functional>
 #include <initializer_list>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/event_packer.h"
 #include "gpu/event_unpacker.h"
 #include "gpu/pipeline.h"
+#include "gpu/pool.h"
+#include "gpu/push_commands.h"
+#include "gpu/stage_times.h"
 #include "gpu/staging.h"
 #include "scarf/gpu.h"
 #include "vulkan/commands.h"
@@ -36,7 +37,12 @@ struct Query {
   std::unique_ptr<QueryTarget> target;
 
   uint64_t memory_bytes() const;
+  /// Copies the parts into results `first` and on, which grow as needed.
+  Result<void> copy_back(vulkan::Device& device, std::span<const Part> parts, size_t first = 0);
 };
+inline vulkan::Commands& compute_of(Query& query) {
+  return query.commands;
+}
 
 /// Queries of one kind need similar memory.
 enum class QueryKind { image, events, state };
@@ -75,7 +81,8 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Pending<T> query(QueryKind kind, const Record<T>& record, bool changes_state = false);
 
  private:
-  friend class WordFeed;  // the other way into a stream: words instead of events
+  friend class WordFeed;     // the other way into a stream: words instead of events
+  friend class StreamGroup;  // submits for several streams
   using Upload = DeviceOptions::Upload;
 
   // Staging memory. Events begin .. fill-1 are pushed but not yet submitted, those before are in flight or
@@ -84,35 +91,12 @@ class Stream : public std::enable_shared_from_this<Stream> {
     StagedBuffer memory;
     std::unique_ptr<EventBinding> binding;  // of events as they are
     EventPacker packer;
+    EventPacker::Part part;  // of the events that are about to be submitted
     vulkan::BoundKernel unpack;
     uint32_t begin = 0;
     uint32_t fill = 0;
     uint64_t last_use = 0;  // place in the compute timeline
   };
-
-  struct PushCommands {
-    vulkan::Commands compute;
-    vulkan::Commands transfer;  // only with Upload::transfer_queue
-    uint64_t transferred = 0;   // place of the upload in the transfer queue's timeline; 0: there is none
-  };
-
-  // Objects that are either idle (perhaps still in flight on the device) or lent out.
-  template <class T>
-  class Pool {
-   public:
-    using Make = std::function<Result<std::unique_ptr<T>>()>;
-    // An object whose last submission is done; a new one if there is none and fewer than a limit are idle.
-    Result<std::unique_ptr<T>> take(const Make& make);
-    void give_back(std::unique_ptr<T> object) { idle_.push_back(std::move(object)); }
-    std::vector<std::unique_ptr<T>>& idle() { return idle_; }
-
-   private:
-    std::unique_ptr<T> take_at(size_t i);
-    std::vector<std::unique_ptr<T>> idle_;
-  };
-
-  static vulkan::Commands& compute_of(PushCommands& c) { return c.compute; }
-  static vulkan::Commands& compute_of(Query& q) { return q.commands; }
 
   Stream(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pipeline, const GpuOptions& options);
   Result<void> start();
@@ -129,24 +113,21 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Result<StagingSlot*> open_slot(size_t n);
   Result<void> submit_gathered();
   Result<void> submit_open();
-  Result<void> submit_push(PushCommands& commands, StagingSlot& s);
-  Result<void> submit_packed(PushCommands& commands, StagingSlot& s);
+  Result<bool> prepare_gathered();
+  // The steps of submit_open: whether there is anything to submit; its copies to the device, if there are
+  // any, and its work, for which the pipeline is ready; and what follows from a submission.
+  Result<bool> prepare_open();
+  void record_copies(vulkan::Commands& commands) const;
+  void record_open(vulkan::Commands& commands);
+  void open_is_submitted();
   void empty(StagingSlot& s);
   void advance();
 
   Result<std::unique_ptr<PushCommands>> take_commands();
-  // Bytes of staging memory.
-  struct Range {
-    uint64_t offset = 0;
-    uint64_t bytes = 0;
-  };
-  Result<void> begin_with_upload(PushCommands& commands, const StagedBuffer& memory,
-                                 std::initializer_list<Range> ranges);
+  Result<void> begin_with_upload(PushCommands& commands, const std::function<void(vulkan::Commands&)>& copy);
   Result<void> submit(PushCommands& commands);
   Result<std::unique_ptr<Query>> take_query(QueryKind kind);
-  Result<void> copy_back(Query& query, std::span<const Part> parts);
-  Result<void> submit(vulkan::Commands& c, uint64_t transferred = 0);
-  void collect(vulkan::Commands& c);
+  Result<void> submit(Query& query);
 
   std::shared_ptr<GpuContext> context_;  // first, so that the device outlives all that follows
   vulkan::Device& device_;
@@ -168,7 +149,7 @@ class Stream : public std::enable_shared_from_this<Stream> {
   std::atomic<uint64_t> query_bytes_ = 0;
   Pool<PushCommands> push_pool_;
   Pool<Query> query_pools_[kQueryKinds];
-  std::map<std::string, StageTime> stage_times_;
+  StageTimes stage_times_;
 };
 
 }  // namespace scarf

@@ -212,11 +212,10 @@ Result<void> WordFeed::submit_open() {
   auto commands = stream_->take_commands();
   if (!commands) return commands.error();
   const auto submitted = [&]() -> Result<void> {
-    if (auto r =
-            stream_->begin_with_upload(**commands, slot.piece.words, {{0, uint64_t{words} * word_bytes_}});
-        !r) {
-      return r;
-    }
+    const auto copy = [&](Commands& c) {
+      c.copy(slot.piece.words.host, 0, slot.piece.words.device, 0, uint64_t{words} * word_bytes_);
+    };
+    if (auto r = stream_->begin_with_upload(**commands, copy); !r) return r;
     if (!clear_) decoder_.record_reset((*commands)->compute);
     decoder_.record_count((*commands)->compute, slot.piece, words);
     return stream_->submit(**commands);
@@ -317,9 +316,8 @@ Result<void> WordFeed::submit_events(Slot& slot) {
     auto commands = stream_->take_commands();
     if (!commands) return commands.error();
     Commands& c = (*commands)->compute;
-    (*commands)->transferred = 0;
     const auto submitted = [&]() -> Result<void> {
-      if (auto r = c.begin(); !r) return r;
+      if (auto r = (*commands)->begin(); !r) return r;
       decoder_.record_write(c, slot.piece, slot.words, slot.next_event, count);
       stream_->pipeline_->record_push(c, *binding_, 0, count, stream_->facts_);
       return stream_->submit(**commands);

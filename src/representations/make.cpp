@@ -15,6 +15,13 @@ class DeviceRepresentation final : public OnDevice<GpuRepresentation> {
 
   SensorSize sensor() const override { return pipeline_.sensor(); }
 
+  U8Picture u8_picture() const override {
+    return {[&pipeline = pipeline_](Query& q, const StreamFacts& facts, std::optional<int64_t> now) {
+              return pipeline.record_u8(q.commands, facts, now);
+            },
+            queries_change_state_};
+  }
+
   Pending<Image<uint8_t>> u8_image(std::optional<int64_t> now) override {
     return stream_->query<Image<uint8_t>>(
         QueryKind::image,

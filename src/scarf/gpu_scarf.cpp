@@ -88,6 +88,13 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
     return std::unique_ptr<GpuEncoder>(std::move(encoder));
   }
 
+  U8Picture u8_picture() const override {
+    return {[&pipeline = pipeline_, sensor = geometry_.sensor()](
+                Query& q, const StreamFacts&, std::optional<int64_t>) -> Result<Answer<Image<uint8_t>>> {
+      return image_answer<uint8_t>(pipeline.record_u8(q.commands, PolarityMode::merged), sensor);
+    }};
+  }
+
   Pending<Image<int32_t>> count_image(PolarityMode mode) override {
     return image<int32_t>(mode, &ScarfPipeline::record_counts);
   }

@@ -1,6 +1,8 @@
 #include "vulkan/commands.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
 namespace scarf::vulkan {
@@ -54,6 +56,8 @@ Commands::~Commands() {
 Result<void> Commands::begin() {
   const Table& calls = device_->calls();
   stages_.clear();
+  in_part_ = false;
+  steps_.clear();
   if (auto r = device_->check(calls.ResetCommandPool(device_->handle(), pool_, 0), "ResetCommandPool"); !r)
     return r;
   VkCommandBufferBeginInfo info{};
@@ -68,32 +72,67 @@ Result<void> Commands::begin() {
   return {};
 }
 
+template <class Recorded>
+void Commands::record(Recorded command) {
+  if (!in_part_) {
+    command(device_->calls(), buffer_);
+    return;
+  }
+  steps_[step_].commands.emplace_back(std::move(command));
+  step_is_empty_ = false;
+}
+
 void Commands::dispatch_bytes(const BoundKernel& bound, uint64_t invocations, uint32_t workgroup_size,
                               const void* push, uint32_t push_bytes) {
   if (invocations == 0) return;
-  const Table& calls = device_->calls();
   const Kernel& kernel = bound.kernel();
-  const VkDescriptorSet set = bound.set();
-  calls.CmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-  calls.CmdBindDescriptorSets(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
-                              nullptr);
-  calls.CmdPushConstants(buffer_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes, push);
   const uint64_t groups = (invocations + workgroup_size - 1) / workgroup_size;
   const uint64_t columns = std::min<uint64_t>(groups, device_->limits().workgroups);
   const uint64_t rows = (groups + columns - 1) / columns;
-  calls.CmdDispatch(buffer_, static_cast<uint32_t>(columns), static_cast<uint32_t>(rows), 1);
+  std::array<std::byte, kMaxPushBytes> constants{};
+  std::memcpy(constants.data(), push, push_bytes);
+  record([=, pipeline = kernel.pipeline(), layout = kernel.layout(), set = bound.set()](
+             const Table& calls, VkCommandBuffer buffer) {
+    calls.CmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    calls.CmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    calls.CmdPushConstants(buffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes, constants.data());
+    calls.CmdDispatch(buffer, static_cast<uint32_t>(columns), static_cast<uint32_t>(rows), 1);
+  });
 }
 
 void Commands::copy(const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,
                     uint64_t bytes) {
   if (bytes == 0) return;
-  const VkBufferCopy region = {from_offset, to_offset, bytes};
-  device_->calls().CmdCopyBuffer(buffer_, from.handle(), to.handle(), 1, &region);
+  record([=, source = from.handle(), target = to.handle()](const Table& calls, VkCommandBuffer buffer) {
+    const VkBufferCopy region = {from_offset, to_offset, bytes};
+    calls.CmdCopyBuffer(buffer, source, target, 1, &region);
+  });
 }
 
 void Commands::fill(const Buffer& buffer, uint64_t bytes, uint32_t word) {
   if (bytes == 0) return;
-  device_->calls().CmdFillBuffer(buffer_, buffer.handle(), 0, bytes, word);
+  record([=, target = buffer.handle()](const Table& calls, VkCommandBuffer commands) {
+    calls.CmdFillBuffer(commands, target, 0, bytes, word);
+  });
+}
+
+void Commands::begin_part() {
+  in_part_ = true;
+  step_ = 0;
+  step_is_empty_ = true;
+  if (steps_.empty()) steps_.emplace_back();
+}
+
+void Commands::record_steps() {
+  if (!in_part_) return;
+  in_part_ = false;
+  for (const Step& step : steps_) {
+    if (&step != &steps_.front()) barrier();
+    for (const std::string_view stage : step.begin_marks) end_stage(stage);
+    for (const Command& command : step.commands) command(device_->calls(), buffer_);
+    for (const std::string_view stage : step.end_marks) end_stage(stage);
+  }
+  steps_.clear();
 }
 
 void Commands::memory_barrier(VkPipelineStageFlags2 to_stages, VkAccessFlags2 to_access) {
@@ -111,6 +150,12 @@ void Commands::memory_barrier(VkPipelineStageFlags2 to_stages, VkAccessFlags2 to
 }
 
 void Commands::barrier() {
+  if (in_part_) {
+    ++step_;
+    step_is_empty_ = true;
+    if (steps_.size() == step_) steps_.emplace_back();
+    return;
+  }
   memory_barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                  VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
 }
@@ -121,12 +166,22 @@ void Commands::timestamp() {
 }
 
 void Commands::mark(std::string_view stage) {
+  if (!in_part_) {
+    end_stage(stage);
+    return;
+  }
+  std::vector<std::string_view>& marks = step_is_empty_ ? steps_[step_].begin_marks : steps_[step_].end_marks;
+  if (std::find(marks.begin(), marks.end(), stage) == marks.end()) marks.push_back(stage);
+}
+
+void Commands::end_stage(std::string_view stage) {
   if (queries_ == VK_NULL_HANDLE || stages_.size() == kMaxStages) return;
   stages_.push_back(stage);
   timestamp();
 }
 
 Result<void> Commands::submit(const Queue* wait_queue, uint64_t wait_value) {
+  record_steps();
   memory_barrier(VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   if (auto r = device_->check(device_->calls().EndCommandBuffer(buffer_), "EndCommandBuffer"); !r) return r;
   const auto value = queue_->submit(buffer_, wait_queue, wait_value);
@@ -171,6 +226,10 @@ void Commands::swap(Commands& other) noexcept {
   std::swap(buffer_, other.buffer_);
   std::swap(queries_, other.queries_);
   std::swap(stages_, other.stages_);
+  std::swap(in_part_, other.in_part_);
+  std::swap(steps_, other.steps_);
+  std::swap(step_, other.step_);
+  std::swap(step_is_empty_, other.step_is_empty_);
   std::swap(value_, other.value_);
 }
 

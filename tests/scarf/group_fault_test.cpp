@@ -1,0 +1,128 @@
+// Every Vulkan call of a group is made to fail once: no member loses anything silently.
+#include <gtest/gtest.h>
+
+#include "scarf/gpu_group.h"
+#include "scarf/reference.h"
+#include "tests/support/faults.h"
+#include "tests/support/same.h"
+#include "tests/support/streams.h"
+#include "vulkan/device.h"
+
+namespace scarf {
+namespace {
+
+using test::Faults;
+
+constexpr size_t kMembers = 3;
+const Geometry kGeometry = *make_geometry(Preset::paper, {40, 30});
+
+std::vector<Event> events_of(size_t member) {
+  return test::make_stream(test::Spread::uniform, {40, 30}, 900, member);
+}
+
+struct Outcome {
+  std::optional<Error> error;  // the first one
+  int calls_before = 0;        // members are made: fault_test.cpp has those fail
+  std::optional<std::vector<Image<uint8_t>>> images;
+  std::optional<Snapshot> states[kMembers];
+};
+
+// Pushes, flushes and asks, and goes on after a failure: whatever comes must not crash.
+Outcome use_group(DeviceOptions::Upload upload) {
+  Outcome outcome;
+  const auto note = [&](const auto& result) {
+    if (!result && !outcome.error) outcome.error = result.error();
+    return result.ok();
+  };
+  DeviceOptions options;
+  options.upload = upload;
+  options.cache_folder = "-";
+  auto device = vulkan::Device::create(options, test::install_faults);
+  if (!note(device)) return outcome;
+  Faults::stop_device = [handle = (*device)->handle()] {
+    test::Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);
+  };
+  const auto context = std::make_shared<GpuContext>(std::move(*device));
+  const auto group = make_gpu_group(context);
+  std::vector<std::unique_ptr<GpuScarf>> members;
+  for (size_t i = 0; i < kMembers; ++i) {
+    auto scarf =
+        make_gpu_scarf(context, kGeometry, kDefaultAccumulation, {.submission_events = i == 0 ? 400u : 0u});
+    if (!note(scarf) || !note(group->add(**scarf))) return outcome;
+    members.push_back(std::move(*scarf));
+  }
+  outcome.calls_before = Faults::calls;
+  for (const size_t half : {0, 1}) {
+    for (size_t i = 0; i < kMembers; ++i)
+      note(members[i]->push(std::span<const Event>(events_of(i)).subspan(half * 450, 450)));
+    if (half == 0) note(group->flush());
+  }
+  // Asked for twice: a failure in front of the first answer leaves the events where they are.
+  auto images = group->u8_images().wait();
+  note(images);
+  if (!images) images = group->u8_images().wait();
+  note(group->finish());
+  for (size_t i = 0; i < kMembers; ++i) {
+    auto state = members[i]->snapshot().wait();
+    note(state);
+    if (state) outcome.states[i] = *std::move(state);
+  }
+  Faults::stop_device = nullptr;
+  if (images) outcome.images = *std::move(images);
+  return outcome;
+}
+
+class GroupFault : public testing::TestWithParam<std::pair<VkResult, DeviceOptions::Upload>> {
+ protected:
+  void TearDown() override { Faults::arm(0, VK_SUCCESS); }
+};
+
+TEST_P(GroupFault, OfEachCallIsReportedAndLosesNothingSilently) {
+  const auto [result, upload] = GetParam();
+  Faults::arm(0, VK_SUCCESS);
+  const Outcome whole = use_group(upload);
+  ASSERT_FALSE(whole.error) << whole.error->message;
+  const int calls = Faults::calls;
+  ASSERT_GT(calls - whole.calls_before, 30);
+  std::vector<Snapshot> expected;
+  for (size_t i = 0; i < kMembers; ++i) {
+    auto reference = *make_reference_scarf(kGeometry);
+    ASSERT_TRUE(reference->push(events_of(i)));
+    expected.push_back(test::value_of(reference->snapshot()));
+    ASSERT_EQ(whole.states[i]->slots, expected[i].slots);
+    ASSERT_EQ(whole.images->at(i), test::value_of(reference->u8_image()));
+  }
+
+  int unreported = 0;
+  for (int n = whole.calls_before + 1; n <= calls; ++n) {
+    SCOPED_TRACE(n);
+    Faults::arm(n, result);
+    const Outcome outcome = use_group(upload);
+    unreported += outcome.error ? 0 : 1;
+    if (outcome.error) {
+      const ErrorCode wanted =
+          result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory;
+      EXPECT_EQ(outcome.error->code, wanted) << outcome.error->message;
+    }
+    // Whatever was handed out is whole.
+    for (size_t i = 0; i < kMembers; ++i) {
+      if (outcome.states[i]) {
+        EXPECT_EQ(outcome.states[i]->totals, expected[i].totals);
+        EXPECT_EQ(outcome.states[i]->slots, expected[i].slots);
+      }
+    }
+    if (outcome.images) {
+      EXPECT_EQ(*outcome.images, *whole.images);
+    }
+  }
+  EXPECT_LE(unreported, (calls - whole.calls_before) / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Results, GroupFault,
+    testing::Values(std::pair(VK_ERROR_DEVICE_LOST, DeviceOptions::Upload::automatic),
+                    std::pair(VK_ERROR_OUT_OF_DEVICE_MEMORY, DeviceOptions::Upload::automatic),
+                    std::pair(VK_ERROR_OUT_OF_HOST_MEMORY, DeviceOptions::Upload::transfer_queue)));
+
+}  // namespace
+}  // namespace scarf
