@@ -21,6 +21,7 @@ Result<int> bench(const BenchOptions& options) {
   if (options.io) return bench_io(options);
   if (options.wire) return bench_wire(options);
   if (options.replay) return bench_replay(options);
+  if (options.streams) return bench_streams(options);
   if (options.paper) return bench_paper(options);
   return options.offload ? bench_offload(options) : bench_scenes(options);
 }
@@ -107,6 +108,19 @@ void add_bench(CLI::App& program, Command& command) {
       ->group(costs);
 
   app->add_flag("--replay", options->replay, "A picture per millisecond of recorded time: replay and stream")
+      ->excludes(paper)
+      ->excludes(representation);
+
+  constexpr size_t kStreams = 16;
+  app->add_option("--streams", options->streams,
+                  text("N small streams in one submission, beside one stream of N times as many events "
+                       "(default: ",
+                       kStreams, ")"))
+      ->expected(0, 1)
+      ->default_str(std::to_string(kStreams))
+      ->check(CLI::Range(1, 256))
+      ->excludes(wire)
+      ->excludes(io)
       ->excludes(paper)
       ->excludes(representation);
 

@@ -24,6 +24,7 @@ struct BenchOptions {
   bool wire = false;
   std::vector<std::string> recordings;  ///< with `io` and `wire`; none: what scarf makes itself
   bool replay = false;
+  std::optional<size_t> streams;                  ///< as one submission
   bool cpu = false;                               ///< the reference only; with `paper`
   std::string representation;                     ///< empty: what the table has by default
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them
@@ -47,6 +48,9 @@ Result<int> bench_io(const BenchOptions& options);
 Result<int> bench_paper(const BenchOptions& options);
 /// Size and cost of the events that are uploaded. Returns the exit code.
 Result<int> bench_wire(const BenchOptions& options);
+
+/// Many small streams in one submission beside one large stream. Returns the exit code.
+Result<int> bench_streams(const BenchOptions& options);
 
 /// Frames of a recording by a replay beside those of a stream that is asked for each. Returns the exit code.
 Result<int> bench_replay(const BenchOptions& options);
