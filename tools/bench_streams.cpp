@@ -57,6 +57,7 @@ Result<int> bench_streams(const BenchOptions& options) {
       if (!geometry) return geometry.error();
       for (const bench::Scene scene : kScenes) {
         for (const bool images : {false, true}) {
+          if (options.quick && (images || scene != kScenes[0])) continue;
           const auto times =
               bench::time_streams(*context, *geometry, scene, streams, rounds, repeats, images);
           if (!times) return times.error();

@@ -32,6 +32,12 @@ constexpr uint32_t kTargetCountsCpu = 1u << 16;
 // Chunks that keep every multiprocessor of a GPU busy.
 constexpr uint32_t kTargetChunksGpu = 2048;
 
+// Shorter chunks cost more in counts and cursors than they gain. On CPU devices these are summed by few
+// cores: a chunk has some events for each count, or is long enough for any counts.
+constexpr uint32_t kLeastEventsPerCountCpu = 2;
+constexpr uint32_t kLongChunkCpu = 5'000;
+constexpr uint32_t kLeastChunkEventsGpu = 64;
+
 constexpr uint64_t kPruneHitsPerSlot = 4;
 
 // Rings that are written in no order: of each one line of 64 bytes of slots and one of positions is in use. A
@@ -60,7 +66,13 @@ uint32_t trips_per_block(const Plan& plan) {
 
 Chunking Plan::cut(uint32_t events) const {
   if (events == 0) return {};
-  uint32_t chunk = forced_chunk_events != 0 ? forced_chunk_events : ceil_div(events, target_chunks);
+  uint32_t chunk = forced_chunk_events;
+  if (chunk == 0) {
+    // As many for each core, and no lane of a core without one.
+    const uint32_t evenly = stripes * teams_per_workgroup;
+    const uint32_t worthwhile = std::max(events / least_chunk_events / evenly * evenly, evenly);
+    chunk = ceil_div(events, std::min(target_chunks, worthwhile));
+  }
   chunk = std::clamp(chunk, ceil_div(events, max_chunks), max_chunk_events);
   // Where most patches get several times their capacity, most hits are overwritten within the batch.
   const uint64_t hits = uint64_t{events} * most_columns * most_rows;
@@ -114,6 +126,9 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
                                               kLeastChunksPerCore, kMostChunksPerCore);
   plan.target_chunks =
       std::min(plan.max_chunks, limits.cpu ? chunks_per_core * limits.cores : kTargetChunksGpu);
+
+  plan.least_chunk_events = limits.cpu ? std::min(kLeastEventsPerCountCpu * plan.class_words(), kLongChunkCpu)
+                                       : kLeastChunkEventsGpu;
 
   plan.forced_chunk_events = std::min(options.chunk_events, plan.max_chunk_events);
   const uint32_t longest = plan.forced_chunk_events != 0 ? plan.forced_chunk_events : plan.max_chunk_events;

@@ -55,6 +55,7 @@ struct Plan {
 
   uint32_t forced_chunk_events = 0;  ///< from the options; 0: free
   uint32_t target_chunks = 0;        ///< chunks that keep the device busy
+  uint32_t least_chunk_events = 1;   ///< shorter ones do not pay, where there are enough chunks for all cores
 
   uint32_t team_lanes() const { return team_x * team_y; }
   uint32_t workgroup_size() const { return team_lanes() * teams_per_workgroup; }

@@ -11,6 +11,7 @@
 #include "gpu/word_feed.h"
 #include "io/prophesee_header.h"
 #include "scarf/filter.h"
+#include "scarf/gpu_group.h"
 #include "scarf/reference.h"
 #include "tests/decoding/words.h"
 #include "tests/support/context.h"
@@ -432,6 +433,34 @@ TEST_F(Decoder, RealRecordings) {
     ASSERT_EQ(read.events.size(), file.events);
     ASSERT_NO_FATAL_FAILURE(expect(read));
   }
+}
+
+// Words in one member of a group and events in another: each of them as alone.
+TEST_F(Decoder, MembersOfAGroupMayHoldWords) {
+  const SensorSize sensor = {120, 90};
+  const Bytes bytes = random_words(CameraWords::evt3, Mixture::plausible, 6000, 17);
+  const auto events = test::make_stream(test::Spread::uniform, sensor, 3000, 18);
+  const auto group = make_gpu_group(context_);
+  const auto of_words = value_of(make_gpu_representation(context_, SaeParameters{}, sensor));
+  const auto of_events = value_of(make_gpu_representation(context_, SaeParameters{}, sensor));
+  const auto decoder = value_of(make_gpu_decoder(*of_words, CameraWords::evt3));
+  for (GpuRepresentation* member : {of_words.get(), of_events.get()}) {
+    const auto added = group->add(*member);
+    ASSERT_TRUE(added) << added.error().message;
+  }
+  const auto words_reference =
+      test::reference(SaeParameters{}, sensor, test::read_words(CameraWords::evt3, bytes, sensor).events);
+  const auto events_reference = test::reference(SaeParameters{}, sensor, events);
+  const size_t half = bytes.size() / 2 + 1;  // within a word
+  ASSERT_EQ(value_of(decoder->push(std::span(bytes).first(half))), half);
+  ASSERT_TRUE(of_events->push(std::span(events).first(1000)));
+  ASSERT_TRUE(group->flush());
+  ASSERT_EQ(value_of(decoder->push(std::span(bytes).subspan(half))), bytes.size() - half);
+  ASSERT_TRUE(of_events->push(std::span(events).subspan(1000)));
+  const auto images = value_of(group->u8_images());
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(images[0], value_of(words_reference->u8_image()));
+  EXPECT_EQ(images[1], value_of(events_reference->u8_image()));
 }
 
 }  // namespace

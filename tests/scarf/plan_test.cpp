@@ -131,6 +131,25 @@ TEST(Plan, BandsCoverAllRowsAndAreManyOnlyWhereRingsAreMany) {
   }
 }
 
+TEST(Plan, FewerChunksForSmallBatches) {
+  const Geometry g = *make_geometry(Preset::paper, {240, 180});  // a team per subgroup
+  const Plan cpu = *make_plan(g, kLevels, limits_of(8, 60'000, true), {});
+  EXPECT_EQ(cpu.cut(10'000).chunks, 2u);  // one for each core
+  EXPECT_EQ(cpu.cut(50'000).chunks, 50'000 / cpu.least_chunk_events / 2 * 2);
+  EXPECT_EQ(cpu.cut(200'000).chunks, cpu.target_chunks);
+  EXPECT_EQ(cpu.cut(1).chunks, 1u);
+  // Small counts: short chunks.
+  const Plan tiny =
+      *make_plan(*make_geometry(Preset::paper, {32, 24}), kLevels, limits_of(8, 60'000, true), {});
+  EXPECT_EQ(tiny.cut(10'000).chunks, tiny.target_chunks);
+  const Plan gpu = *make_plan(g, kLevels, limits_of(32, UINT32_MAX, false), {});
+  EXPECT_GE(gpu.cut(10'000).chunk_events, 64u);
+  EXPECT_EQ(gpu.cut(2048 * 100).chunks, gpu.target_chunks);
+  GpuOptions forced;
+  forced.chunk_events = 7;
+  EXPECT_EQ(make_plan(g, kLevels, limits_of(8, 60'000, true), forced)->cut(70).chunks, 10u);
+}
+
 TEST(Plan, RefusesOptionsOutOfRangeByName) {
   const Geometry g = *make_geometry(Preset::paper, {64, 48});
   const auto message = [&](GpuOptions options) {

@@ -281,7 +281,8 @@ class BenchProgram : public testing::Test {
 TEST_F(BenchProgram, BadUsageExitsWithTwo) {
   for (const std::string arguments :
        {"--representation none", "--kernel 9", "--csv x", "--plot x", "--file x", "--geometry 64x48", "--cpu",
-        "--paper --stages", "--paper --geometry 0x0", "--paper --cpu --device 0", "extra"}) {
+        "--paper --stages", "--paper --geometry 0x0", "--paper --cpu --device 0", "--streams 0",
+        "--streams 2 --wire", "extra"}) {
     EXPECT_EQ(run(arguments), 2) << arguments << "\n" << err_;
     EXPECT_EQ(lines_of(err_).size(), 1u) << arguments << "\n" << err_;
   }
@@ -308,6 +309,19 @@ TEST_F(BenchProgram, WritesTheTableAsCsvJsonAndPlot) {
   EXPECT_EQ(report["results"][0]["throughput"].size(), kQueryRates.size());
   EXPECT_FALSE(report["results"][1].contains("ns_per_event"));
   EXPECT_EQ(xml_mistake(content_of(path("o.svg"))), "");
+}
+
+TEST_F(BenchProgram, ComparesManyStreamsWithOne) {
+  ASSERT_EQ(run("--streams 2 --quick --json " + path("o.json")), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("one stream of 20000 events per batch, and 2 streams of 10000"));
+  const auto report = nlohmann::json::parse(content_of(path("o.json")));
+  ASSERT_EQ(report["results"].size(), 6u);  // sensors and presets
+  for (const auto& result : report["results"]) {
+    EXPECT_EQ(result["streams"], 2);
+    for (const char* contender : {"one", "together", "alone"}) {
+      EXPECT_GT(result[contender]["ns_per_event"].get<double>(), 0);
+    }
+  }
 }
 
 TEST_F(BenchProgram, TakesARecording) {
