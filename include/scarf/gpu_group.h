@@ -17,7 +17,8 @@ namespace scarf {
 /// A member stays what it was: whoever made it pushes into it, which gathers events up to its
 /// GpuOptions::submission_events, and it submits those itself when its staging slot is full or when a query
 /// or flush() of its own asks for them. Which way events went never shows in a result. A member that is
-/// destroyed leaves the group, which does not own it; the group may be destroyed before its members.
+/// destroyed leaves the group, which does not own it; the group may be destroyed before its members. Most of
+/// a small member's memory is for what it may gather: choose its submission_events and staging_slots.
 ///
 /// Threads: any thread may call any function, while others push into the members and query them. A call
 /// locks all members until its work is submitted.
