@@ -6,6 +6,7 @@
 #include <random>
 #include <thread>
 
+#include "gpu/stream_group.h"
 #include "scarf/gpu_group.h"
 #include "scarf/reference.h"
 #include "tests/support/context.h"
@@ -298,6 +299,50 @@ TEST(GroupCalls, SubmissionsAndBarriersDoNotGrowWithMembers) {
       EXPECT_EQ(Calls::barriers, barriers_of_one);
     }
   }
+}
+
+// A pipeline without room for any event.
+class FullPipeline final : public Pipeline {
+ public:
+  SensorSize sensor() const override { return {60, 50}; }
+  uint32_t submission_events() const override { return 100; }
+  Result<std::unique_ptr<EventBinding>> bind_events(const vulkan::Buffer&) override {
+    return std::make_unique<EventBinding>();
+  }
+  void record_reset(vulkan::Commands&) override {}
+  Result<void> prepare_push(uint32_t) override { return Error{ErrorCode::out_of_memory, "full"}; }
+  void record_push(vulkan::Commands&, EventBinding&, uint32_t, uint32_t, const StreamFacts&) override {
+    ADD_FAILURE();
+  }
+  uint64_t memory_bytes() const override { return 0; }
+};
+
+struct FullMember final : StreamFed {
+  explicit FullMember(std::shared_ptr<Stream> s) : fed(std::move(s)) {}
+  std::shared_ptr<Stream> stream() const override { return fed; }
+  U8Picture u8_picture() const override { return {}; }
+  std::shared_ptr<Stream> fed;
+};
+
+TEST_F(Group, AMemberThatCannotTakePartDoesNotHoldUpOthers) {
+  const FullMember full(value_of(Stream::create(context_, std::make_unique<FullPipeline>(), {})));
+  const auto scarf = device_scarf(*make_geometry(Preset::light, {60, 50}));
+  const auto group = std::make_shared<StreamGroup>(context_);
+  ASSERT_TRUE(group->add(full));
+  ASSERT_TRUE(group->add(dynamic_cast<const StreamFed&>(*scarf)));
+  const auto events = make_stream(Spread::uniform, {60, 50}, 50, 9);
+  ASSERT_TRUE(full.fed->push(events) && scarf->push(events));
+  for (int i = 0; i < 2; ++i) {  // the events stay, so there is no room for them again
+    const auto flushed = group->flush();
+    ASSERT_FALSE(flushed);
+    EXPECT_EQ(flushed.error().message, "full");
+  }
+  const auto image = group->u8_images(std::nullopt).wait();
+  ASSERT_FALSE(image);
+  ASSERT_TRUE(scarf->finish());
+  const auto times = group->stage_times();
+  const bool timed = context_->vulkan().limits().timestamp_period > 0;
+  EXPECT_EQ(times.empty(), !timed);  // the other member's events were submitted by the group
 }
 
 TEST_F(Group, StagesAreTimed) {
