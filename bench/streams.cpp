@@ -68,10 +68,10 @@ struct Contender {
 };
 
 Result<Contender> make_contender(const std::shared_ptr<GpuContext>& context, const Geometry& geometry,
-                                 size_t streams) {
+                                 size_t streams, const GpuOptions& options) {
   Contender made;
   for (size_t i = 0; i < streams; ++i) {
-    auto scarf = make_gpu_scarf(context, geometry);
+    auto scarf = make_gpu_scarf(context, geometry, kDefaultAccumulation, options);
     if (!scarf) return scarf.error();
     made.streams.push_back(std::move(*scarf));
   }
@@ -82,11 +82,13 @@ Result<Contender> make_contender(const std::shared_ptr<GpuContext>& context, con
 
 Result<StreamTimes> time_streams(std::shared_ptr<GpuContext> context, const Geometry& geometry, Scene scene,
                                  size_t streams, size_t rounds, int repeats, bool images) {
-  auto one = make_contender(context, geometry, 1);
+  // Room for some batches while the device is busy: a full stream would submit itself.
+  const GpuOptions small = {.submission_events = 4 * kStreamBatch};
+  auto one = make_contender(context, geometry, 1, {});
   if (!one) return one.error();
-  auto together = make_contender(context, geometry, streams);
+  auto together = make_contender(context, geometry, streams, small);
   if (!together) return together.error();
-  auto alone = make_contender(context, geometry, streams);
+  auto alone = make_contender(context, geometry, streams, small);
   if (!alone) return alone.error();
   together->group = make_gpu_group(context);
   for (const auto& stream : together->streams) {

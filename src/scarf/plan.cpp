@@ -64,15 +64,16 @@ uint32_t trips_per_block(const Plan& plan) {
   return 1 + 2 + plan.team_lanes() * (1 + rows) + 1;
 }
 
+// As many for each core, and no lane of a core without one.
+uint32_t Plan::worthwhile_chunks(uint32_t events) const {
+  const uint32_t evenly = stripes * teams_per_workgroup;
+  return std::min(target_chunks, std::max(events / least_chunk_events / evenly * evenly, evenly));
+}
+
 Chunking Plan::cut(uint32_t events) const {
   if (events == 0) return {};
-  uint32_t chunk = forced_chunk_events;
-  if (chunk == 0) {
-    // As many for each core, and no lane of a core without one.
-    const uint32_t evenly = stripes * teams_per_workgroup;
-    const uint32_t worthwhile = std::max(events / least_chunk_events / evenly * evenly, evenly);
-    chunk = ceil_div(events, std::min(target_chunks, worthwhile));
-  }
+  uint32_t chunk =
+      forced_chunk_events != 0 ? forced_chunk_events : ceil_div(events, worthwhile_chunks(events));
   chunk = std::clamp(chunk, ceil_div(events, max_chunks), max_chunk_events);
   // Where most patches get several times their capacity, most hits are overwritten within the batch.
   const uint64_t hits = uint64_t{events} * most_columns * most_rows;
@@ -136,8 +137,8 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
   plan.submission_events =
       static_cast<uint32_t>(std::min<uint64_t>(wanted, uint64_t{plan.max_chunks} * longest));
   // No more room than the longest submission can use.
-  plan.max_chunks =
-      std::min(plan.max_chunks, std::max(plan.target_chunks, ceil_div(plan.submission_events, longest)));
+  plan.max_chunks = std::min(plan.max_chunks, std::max(plan.worthwhile_chunks(plan.submission_events),
+                                                       ceil_div(plan.submission_events, longest)));
   return plan;
 }
 

@@ -69,6 +69,8 @@ struct Plan {
   uint64_t most_invocations() const { return (teams(max_chunks) + teams_per_workgroup) * team_lanes(); }
   /// Cuts a submission of `events` (at most submission_events).
   Chunking cut(uint32_t events) const;
+  /// Chunks that pay, where the options leave it free; never fewer for more events.
+  uint32_t worthwhile_chunks(uint32_t events) const;
 };
 
 /// Trips, loop entries included, that a place invocation takes per block of as many events as its

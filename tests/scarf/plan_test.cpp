@@ -145,6 +145,12 @@ TEST(Plan, FewerChunksForSmallBatches) {
   const Plan gpu = *make_plan(g, kLevels, limits_of(32, UINT32_MAX, false), {});
   EXPECT_GE(gpu.cut(10'000).chunk_events, 64u);
   EXPECT_EQ(gpu.cut(2048 * 100).chunks, gpu.target_chunks);
+  // Streams of small batches need little memory for chunks.
+  GpuOptions small;
+  small.submission_events = 10'000;
+  const Plan few = *make_plan(g, kLevels, limits_of(32, UINT32_MAX, false), small);
+  EXPECT_GE(few.max_chunks, few.cut(10'000).chunks);
+  EXPECT_LT(few.max_chunks, gpu.max_chunks / 10);
   GpuOptions forced;
   forced.chunk_events = 7;
   EXPECT_EQ(make_plan(g, kLevels, limits_of(8, 60'000, true), forced)->cut(70).chunks, 10u);
