@@ -143,7 +143,7 @@ layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int6
   push.cell_y = geometry_.y.cell;
   push.capacity = geometry_.capacity;
   push.prune = chunking.prune ? 1 : 0;
-  push.stripes = plan_.stripes;
+  push.stripes = chunking.stripes;
   push.bands = plan_.bands;
   push.band_rows = plan_.band_rows;
   push.unused_entry = static_cast<uint32_t>(plan_.table_words());
@@ -199,8 +199,8 @@ void ScarfPipeline::record_prune(Commands& commands, const layout::BatchPush& pu
 
 void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels,
                                  const layout::BatchPush& push) const {
-  commands.dispatch(kernels.place, plan_.teams(push.chunks) * plan_.team_lanes(), plan_.workgroup_size(),
-                    push);
+  commands.dispatch(kernels.place, plan_.teams(push.chunks, push.stripes) * plan_.team_lanes(),
+                    plan_.workgroup_size(), push);
   commands.barrier();
   commands.mark("place");
 }

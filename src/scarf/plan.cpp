@@ -64,10 +64,11 @@ uint32_t trips_per_block(const Plan& plan) {
   return 1 + 2 + plan.team_lanes() * (1 + rows) + 1;
 }
 
-// As many for each core, and no lane of a core without one.
+// As many for each core, and no lane of a core without work: bands of one chunk are work for several.
 uint32_t Plan::worthwhile_chunks(uint32_t events) const {
-  const uint32_t evenly = stripes * teams_per_workgroup;
-  return std::min(target_chunks, std::max(events / least_chunk_events / evenly * evenly, evenly));
+  const uint32_t teams = stripes * teams_per_workgroup;
+  const uint32_t evenly = events / least_chunk_events / teams * teams;
+  return std::min(target_chunks, std::max(evenly, ceil_div(teams, bands)));
 }
 
 Chunking Plan::cut(uint32_t events) const {
@@ -78,7 +79,8 @@ Chunking Plan::cut(uint32_t events) const {
   // Where most patches get several times their capacity, most hits are overwritten within the batch.
   const uint64_t hits = uint64_t{events} * most_columns * most_rows;
   const bool prune = hits >= kPruneHitsPerSlot * patches * capacity;
-  return {chunk, ceil_div(events, chunk), prune};
+  const uint32_t chunks = ceil_div(events, chunk);
+  return {chunk, chunks, std::min(stripes, chunks), prune};
 }
 
 Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels,

@@ -22,6 +22,7 @@ inline constexpr int64_t kMaxPatches = 4'000'000;
 struct Chunking {
   uint32_t chunk_events = 0;
   uint32_t chunks = 0;
+  uint32_t stripes = 1;  ///< no more than chunks, so that none is empty
   bool prune =
       false;  ///< so many hits do not survive that it pays to find out which events have none that do
 };
@@ -63,10 +64,14 @@ struct Plan {
   uint64_t table_words() const { return uint64_t{patches} * max_chunks; }
   /// Words of the counts per class of one chunk.
   uint32_t class_words() const { return class_columns * class_rows; }
-  /// Teams of the place stage.
-  uint64_t teams(uint32_t chunks) const { return uint64_t{ceil_div(chunks, stripes)} * stripes * bands; }
+  /// Teams of the place stage, for some stripes of chunks.
+  uint64_t teams(uint32_t chunks, uint32_t in_stripes) const {
+    return uint64_t{ceil_div(chunks, in_stripes)} * in_stripes * bands;
+  }
   /// Most invocations of the place stage, those of unfinished workgroups included.
-  uint64_t most_invocations() const { return (teams(max_chunks) + teams_per_workgroup) * team_lanes(); }
+  uint64_t most_invocations() const {
+    return (teams(max_chunks, stripes) + teams_per_workgroup) * team_lanes();
+  }
   /// Cuts a submission of `events` (at most submission_events).
   Chunking cut(uint32_t events) const;
   /// Chunks that pay, where the options leave it free; never fewer for more events.

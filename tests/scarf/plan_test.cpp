@@ -145,6 +145,13 @@ TEST(Plan, FewerChunksForSmallBatches) {
   const Plan gpu = *make_plan(g, kLevels, limits_of(32, UINT32_MAX, false), {});
   EXPECT_GE(gpu.cut(10'000).chunk_events, 64u);
   EXPECT_EQ(gpu.cut(2048 * 100).chunks, gpu.target_chunks);
+  // Bands of few chunks occupy the cores, too.
+  const Geometry wide = *make_geometry(Preset::light, {1280, 720});  // two teams per subgroup
+  const Plan banded = *make_plan(wide, kLevels, limits_of(8, 60'000, true), {.bands = 4});
+  EXPECT_EQ(banded.cut(4'000).chunks, 1u);
+  EXPECT_EQ(banded.cut(4'000).stripes, 1u);
+  EXPECT_EQ(banded.teams(1, 1), 4u);
+  EXPECT_EQ(banded.cut(200'000).stripes, 2u);
   // Streams of small batches need little memory for chunks.
   GpuOptions small;
   small.submission_events = 10'000;
