@@ -119,6 +119,8 @@ void add_bench(CLI::App& program, Command& command) {
       ->expected(0, 1)
       ->default_str(std::to_string(kStreams))
       ->check(CLI::Range(1, 256))
+      ->excludes("--replay")
+      ->excludes("--offload")
       ->excludes(wire)
       ->excludes(io)
       ->excludes(paper)

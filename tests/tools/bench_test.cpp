@@ -282,7 +282,7 @@ TEST_F(BenchProgram, BadUsageExitsWithTwo) {
   for (const std::string arguments :
        {"--representation none", "--kernel 9", "--csv x", "--plot x", "--file x", "--geometry 64x48", "--cpu",
         "--paper --stages", "--paper --geometry 0x0", "--paper --cpu --device 0", "--streams 0",
-        "--streams 2 --wire", "extra"}) {
+        "--streams 2 --wire", "--streams --replay", "extra"}) {
     EXPECT_EQ(run(arguments), 2) << arguments << "\n" << err_;
     EXPECT_EQ(lines_of(err_).size(), 1u) << arguments << "\n" << err_;
   }
