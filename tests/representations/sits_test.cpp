@@ -28,9 +28,14 @@ class DeviceSits final : public OnDevice<GpuRepresentation> {
       : OnDevice(Feed{std::move(stream)}), pipeline_(pipeline) {}
 
   SensorSize sensor() const override { return pipeline_.sensor(); }
+  U8Picture u8_picture() const override {
+    return {[&pipeline = pipeline_](Query& q, const StreamFacts& times, std::optional<int64_t> now) {
+      return pipeline.record_u8(q.commands, times, now);
+    }};
+  }
   Pending<Image<uint8_t>> u8_image(std::optional<int64_t> now) override {
     return stream_->query<Image<uint8_t>>(QueryKind::image, [&](Query& q, const StreamFacts& times) {
-      return pipeline_.record_u8(q.commands, times, now);
+      return u8_picture().record(q, times, now);
     });
   }
   Pending<Image<float>> float_image(std::optional<int64_t> now) override {
