@@ -180,7 +180,7 @@ class Reader final : public BlockSource {
 Error has_no_events(Family family) {
   if (family != Family::other)
     return {ErrorCode::bad_input, text("has no events as ", name_of(family), " has them")};
-  return {ErrorCode::bad_input,
+  return {ErrorCode::unrecognised,
           "this HDF5 file has no events where scarf looks for them; docs/FORMATS.md says where that is"};
 }
 
