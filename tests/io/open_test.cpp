@@ -81,6 +81,25 @@ TEST(PropheseeHeader, AnEndlessLineIsAnErrorAndIsNotBuffered) {
   EXPECT_LE(served, ByteReader::kCapacity);
 }
 
+TEST(Open, AnInputLongerThanItSaysIsReadWhole) {
+  Bytes bytes(200'000);
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(i * i >> 5);
+  for (const uint64_t claimed : {uint64_t{1}, uint64_t{100}, bytes.size() + 1}) {
+    const auto read_some = [&, rest = std::span(bytes)](std::span<uint8_t> out) mutable -> Result<size_t> {
+      const size_t count = std::min<size_t>(out.size(), rest.size());
+      std::copy_n(rest.begin(), count, out.begin());
+      rest = rest.subspan(count);
+      return count;
+    };
+    ByteReader reader(read_some, claimed);
+    ASSERT_TRUE(reader.fill(1000).ok());
+    reader.skip(7);
+    ASSERT_TRUE(reader.fill(bytes.size()).ok());
+    EXPECT_TRUE(std::ranges::equal(reader.available(), std::span(bytes).subspan(7)));
+    EXPECT_TRUE(reader.ended());
+  }
+}
+
 TEST(Open, FileAndOptionMustAgree) {
   EXPECT_EQ(sensor_of("% evt 2.0\n% end\n", {SensorSize{304, 240}}), (SensorSize{304, 240}));
   EXPECT_EQ(sensor_of("% evt 2.0\n% geometry 304x240\n% end\n", {SensorSize{304, 240}}),
