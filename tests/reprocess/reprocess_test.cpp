@@ -74,6 +74,32 @@ TEST_F(Reprocess, ARecipeHasSeveralOutputsAndInstantsOfASideFile) {
   EXPECT_EQ(json_in(path("out/a.raw.json"))["counts"]["frames"], 2);
 }
 
+TEST_F(Reprocess, ARecipeHasTheProductsOfRender) {
+  for (const FormatInfo& format : formats()) {
+    if (!format.missing.empty()) GTEST_SKIP() << format.name << " needs " << format.missing;
+  }
+  record("in/a.raw", 1);
+  write_text(path("recipe.toml"),
+             "output = [\".png\", \".npy\", \".tensors.h5\"]\npixels = \"float\"\n"
+             "encoding = \"voxel_grid:bins=5\"\nsparse = \".events.npz\"\nevery = 1000\n");
+  for (const std::string machine : {"cpu", "device"}) {
+    const Outcome outcome = run(
+        in_to(machine, text(machine == "cpu" ? "--cpu" : "", " --verify 1 --recipe ", path("recipe.toml"))));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err << outcome.out;
+    const Json record = json_in(path(machine + "/a.raw.json"));
+    EXPECT_EQ(record["outputs"], Json({".png", ".npy", ".tensors.h5", ".events.npz"}));
+    EXPECT_EQ(record["counts"]["frames"], 3);
+    const Outcome rendered = shell(text(SCARF_PROGRAM, " render --cpu ", path("in/a.raw"), " -o ",
+                                        path("rendered.npy"), " --pixels float --every 1000"));
+    ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
+    EXPECT_EQ(content_of(path(machine + "/a.raw.npy")), content_of(path("rendered.npy")));
+    EXPECT_EQ(content_of(path(machine + "/a.raw.csv")), content_of(path("rendered.csv")));
+    EXPECT_GT(fs::file_size(path(machine + "/a.raw.tensors.h5")), 0u);
+    EXPECT_GT(fs::file_size(path(machine + "/a.raw.events.npz")), 0u);
+  }
+  EXPECT_EQ(records("cpu", false), records("device", false));
+}
+
 TEST_F(Reprocess, BadInputsAreToldAndTheRestGoesOn) {
   record_some();
   write_text(path("in/a/corrupt.raw"), "% format EVT3;height=720;width=huge\n% end\n");
