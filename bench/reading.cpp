@@ -6,6 +6,7 @@
 #include <fstream>
 #include <vector>
 
+#include "bench/unpacking.h"
 #include "core/text.h"
 
 namespace scarf::bench {
@@ -60,7 +61,7 @@ uint64_t read_bytes(const std::string& path, std::vector<char>& buffer) {
 
 Result<ReadTime> time_reading(const std::string& path, const ReadOptions& options, int repeats) {
   ReadTime time;
-  std::vector<double> reading, file;
+  std::vector<double> reading, file, unpacking;
   std::vector<Event> events(kEventsAtOnce);
   std::vector<char> bytes(kBytesAtOnce);
   for (int i = 0; i <= repeats; ++i) {
@@ -76,12 +77,17 @@ Result<ReadTime> time_reading(const std::string& path, const ReadOptions& option
     const double file_begin = processor_ns();
     time.bytes = read_bytes(path, bytes);
     const double file_end = processor_ns();
+    const auto unpacked = unpack_blocks(path, time.format, options);
+    const double unpacking_end = processor_ns();
+    if (!unpacked) return unpacked.error();
     if (i == 0) continue;
     reading.push_back((end - begin) / static_cast<double>(*count));
     file.push_back((file_end - file_begin) / static_cast<double>(*count));
+    if (*unpacked) unpacking.push_back((unpacking_end - file_end) / static_cast<double>(*count));
   }
   time.ns_per_event = median(reading);
   time.file_ns_per_event = median(file);
+  if (!unpacking.empty()) time.unpacking_ns_per_event = median(unpacking);
   return time;
 }
 

@@ -1,67 +1,33 @@
 // What every reader must hold for any bytes: no fault, and the same events and report however they are read.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "io/open.h"
+#include "scarf/frames.h"
+#include "scarf/io.h"
 
 namespace scarf {
 
-struct Reading {
-  std::vector<Event> events;
-  ReadReport report;
-};
+/// Aborts, which libFuzzer reports, unless the condition holds.
+void require(bool condition);
 
-inline void require(bool condition) {
-  if (!condition) std::abort();
-}
+/// Reads `header` and `data` behind it at once and in small steps, and compares; then the frames and
+/// triggers.
+void check_reader(std::string_view header, std::span<const uint8_t> data, const ReadOptions& options = {});
 
-inline Reading read_in_steps(const std::vector<uint8_t>& bytes, size_t bytes_at_a_time,
-                             size_t events_at_a_time, const ReadOptions& options = {}) {
-  const auto read_some = [&, rest = std::span(bytes)](std::span<uint8_t> out) mutable -> Result<size_t> {
-    const size_t count = std::min({out.size(), bytes_at_a_time, rest.size()});
-    std::copy_n(rest.begin(), count, out.begin());
-    rest = rest.subspan(count);
-    return count;
-  };
-  auto source = open_input(ByteReader(read_some, 0), "fuzz", options);
-  if (!source) return {};
-  Reading reading;
-  std::vector<Event> buffer(events_at_a_time);
-  for (;;) {
-    const auto count = (*source)->read(buffer);
-    require(count.ok() && *count <= buffer.size());
-    if (*count == 0) break;
-    reading.events.insert(reading.events.end(), buffer.begin(),
-                          buffer.begin() + static_cast<ptrdiff_t>(*count));
-  }
-  reading.report = (*source)->report();
-  require((*source)->bytes_read() == bytes.size());
-  require(reading.report.events == reading.events.size());
-  for (const Event& e : reading.events) {
-    require(e.p <= 1);
-    require(!(*source)->sensor() || (*source)->sensor()->contains(e));
-  }
-  return reading;
-}
+/// The same of the events of a file or folder, for readers that need one.
+void check_path(const std::string& path, const ReadOptions& options = {});
 
-inline void check_reader(std::string_view header, std::span<const uint8_t> data,
-                         const ReadOptions& options = {}) {
-  std::vector<uint8_t> bytes(header.begin(), header.end());
-  bytes.insert(bytes.end(), data.begin(), data.end());
-  const Reading whole = read_in_steps(bytes, bytes.size(), 1024, options);
-  const Reading pieces = read_in_steps(bytes, 5, 3, options);
-  require(whole.events == pieces.events);
-  require(whole.report.outside == pieces.report.outside);
-  require(whole.report.back_steps == pieces.report.back_steps);
-  require(whole.report.unknown_words == pieces.report.unknown_words);
-  require(whole.report.truncated_bytes == pieces.report.truncated_bytes);
-}
+/// Reads all frames.
+void read_frames(const Result<std::unique_ptr<FrameSource>>& source);
+
+/// All triggers. None if damage ends them, since what a call had before it is not handed out.
+std::vector<Trigger> read_triggers(const Result<std::unique_ptr<TriggerSource>>& source, size_t batch);
 
 }  // namespace scarf

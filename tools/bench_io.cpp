@@ -1,4 +1,5 @@
-// scarf bench --io: the readers, each beside the plain reading of its file.
+// scarf bench --io: the readers, each beside the plain reading of its file and, where blocks are compressed,
+// beside their unpacking alone.
 #include <unistd.h>
 
 #include <cstdio>
@@ -50,9 +51,13 @@ Result<void> measure(const std::string& name, const std::string& path, const Rea
   const auto time = bench::time_reading(path, options, repeats);
   if (!time) return time.error();
   const double bytes_per_event = static_cast<double>(time->bytes) / static_cast<double>(time->events);
-  std::printf("%-10s %10lu %10.2f %10.2f %10.1f %10.2f  %s\n", time->format.c_str(),
+  char unpacking[16] = "-";
+  if (time->unpacking_ns_per_event) {
+    std::snprintf(unpacking, sizeof unpacking, "%.2f", *time->unpacking_ns_per_event);
+  }
+  std::printf("%-13s %10lu %10.2f %10.2f %10.1f %10.2f %10s  %s\n", time->format.c_str(),
               static_cast<unsigned long>(time->events), bytes_per_event, time->ns_per_event,
-              1e3 / time->ns_per_event, time->file_ns_per_event, name.c_str());
+              1e3 / time->ns_per_event, time->file_ns_per_event, unpacking, name.c_str());
   std::fflush(stdout);
   results.push_back({{"benchmark", "io"},
                      {"format", time->format},
@@ -61,6 +66,9 @@ Result<void> measure(const std::string& name, const std::string& path, const Rea
                      {"bytes_per_event", bytes_per_event},
                      {"ns_per_event", time->ns_per_event},
                      {"file_ns_per_event", time->file_ns_per_event}});
+  if (time->unpacking_ns_per_event) {
+    results.back()["unpacking_ns_per_event"] = *time->unpacking_ns_per_event;
+  }
   return {};
 }
 
@@ -70,8 +78,8 @@ Result<int> bench_io(const BenchOptions& options) {
   const int repeats = options.quick ? 3 : 7;
   std::printf("commit %s; processor time of one core, median of %d, file in the page cache\n", SCARF_COMMIT,
               repeats);
-  std::printf("%-10s %10s %10s %10s %10s %10s  %s\n", "format", "events", "B/event", "ns/event", "Mev/s",
-              "file ns", "recording");
+  std::printf("%-13s %10s %10s %10s %10s %10s %10s  %s\n", "format", "events", "B/event", "ns/event", "Mev/s",
+              "file ns", "unpack ns", "recording");
   nlohmann::json results = nlohmann::json::array();
   for (const std::string& path : options.recordings) {
     if (auto r = measure(path, path, {options.sensor}, repeats, results); !r) return r.error();

@@ -7,13 +7,27 @@
 #include "tools/npz_events_writer.h"
 
 namespace scarf::tools {
+namespace {
 
-Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".h5" || extension == ".hdf5") return create_hdf5_events(path, sensor);
-  if (extension == ".npz") return create_npz_events(path);
+std::string extension_of(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+bool is_hdf5(const std::string& path) {
+  return extension_of(path) == ".h5" || extension_of(path) == ".hdf5";
+}
+
+}  // namespace
+
+Result<void> check_event_list(const std::string& path) {
+  if (is_hdf5(path) || extension_of(path) == ".npz") return {};
   return Error{ErrorCode::illegal_parameter,
                text("sparse events cannot be written as ", path, "; use a name that ends in .h5 or .npz")};
+}
+
+Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor) {
+  if (auto r = check_event_list(path); !r) return r.error();
+  return is_hdf5(path) ? create_hdf5_events(path, sensor) : create_npz_events(path);
 }
 
 }  // namespace scarf::tools

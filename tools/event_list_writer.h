@@ -20,6 +20,9 @@ class EventListWriter {
   virtual Result<void> finish() = 0;
 };
 
+/// Whether such a file can be made, by its name alone. Errors: illegal_parameter.
+Result<void> check_event_list(const std::string& path);
+
 /// By the name: .h5 and .hdf5 (see hdf5_writer.h), .npz (arrays x, y, p, t of all events, one frame after the
 /// other; frame_offsets, one more than there are frames; times, stream_events). Errors: illegal_parameter for
 /// other names, and where this build lacks the library; io.

@@ -10,7 +10,7 @@ namespace {
 
 Result<int> print_formats() {
   for (const FormatInfo& info : formats()) {
-    std::cout << std::left << std::setw(12) << info.name << std::setw(12)
+    std::cout << std::left << std::setw(15) << info.name << std::setw(12)
               << (!info.missing.empty() ? "not built"
                   : info.written        ? "read, write"
                                         : "read")

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "io/numpy_header.h"
 
 namespace scarf::tools {
 namespace {
@@ -48,11 +49,7 @@ Result<void> NpyFile::finish() {
 std::string NpyFile::header(uint64_t rows) const {
   std::string shape = text("(", rows, ",");
   for (const size_t n : row_) shape += text(" ", n, ",");
-  std::string dictionary = text("{'descr': '", type_, "', 'fortran_order': False, 'shape': ", shape, "), }");
-  const size_t length = kHeaderBytes - 10;
-  dictionary.resize(length - 1, ' ');
-  dictionary += '\n';
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(length) + '\0' + dictionary;
+  return numpy_header_text(text("'", type_, "'"), shape + ")", kHeaderBytes);
 }
 
 Error NpyFile::failed() const {

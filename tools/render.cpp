@@ -12,6 +12,7 @@
 #include "tools/memory.h"
 #include "tools/options.h"
 #include "tools/play.h"
+#include "tools/product_options.h"
 #include "tools/products.h"
 #include "tools/progress.h"
 #include "tools/renderer.h"
@@ -27,17 +28,9 @@ struct RenderOptions {
   std::string output;
   FrameOptions frames;
   std::optional<int64_t> window;
-  bool floats = false;
-  std::string encoding;  // words, see parse_encoding; empty: pictures
-  std::string sparse;    // file for the sparse events of each frame
+  ProductOptions products;
   bool decode_on_device = false;
 };
-
-std::string encoding_names() {
-  std::string names;
-  for (const EncodingInfo& info : encodings()) names += (names.empty() ? "" : ", ") + info.name;
-  return names;
-}
 
 Error illegal(const std::string& message) {
   return {ErrorCode::illegal_parameter, message};
@@ -54,18 +47,18 @@ Result<void> check(const RenderOptions& options, OutputKind kind) {
     return illegal("--compare-window is not offered for .pgm; use a .png, a folder or a video");
   }
   const bool mosaic = options.window || options.stream.representation == kAllRepresentations;
-  if (options.floats && !is_array(kind)) {
+  if (options.products.floats && !is_array(kind)) {
     return illegal("--pixels float is offered for .npy and .h5; a picture has 8 bits");
   }
-  if (!options.encoding.empty() && kind != OutputKind::hdf5) {
+  if (!options.products.encoding.empty() && kind != OutputKind::hdf5) {
     return illegal("--encoding makes tensors, which go into an .h5; name one as the output");
   }
-  if (mosaic && (options.floats || !options.encoding.empty() || !options.sparse.empty())) {
+  if (mosaic && options.products.special()) {
     return illegal(
         "--pixels float, --encoding and --sparse are of one representation; leave out "
         "--compare-window and --representation all");
   }
-  if (!options.sparse.empty() && options.stream.representation == "aae") {
+  if (!options.products.sparse.empty() && options.stream.representation == "aae") {
     return illegal(
         "--sparse with aae would not show the events of the picture, since each query changes its "
         "state; use another representation");
@@ -104,8 +97,8 @@ Result<std::vector<std::unique_ptr<FrameProduct>>> make_products(const RenderOpt
                                                                  const std::vector<Shown>& shown) {
   Representation& first = *shown.front().representation;
   std::vector<std::unique_ptr<FrameProduct>> products;
-  if (!options.encoding.empty()) {
-    const auto encoding = parse_encoding(options.encoding);
+  if (!options.products.encoding.empty()) {
+    const auto encoding = parse_encoding(options.products.encoding);
     if (!encoding) return encoding.error();
     auto tensors = tensor_product(first, *encoding, options.output);
     if (!tensors) return tensors.error();
@@ -113,11 +106,11 @@ Result<std::vector<std::unique_ptr<FrameProduct>>> make_products(const RenderOpt
   } else {
     auto writer = make_frame_writer(options.output, kind, options.frames.shown_fps());
     if (!writer) return writer.error();
-    products.push_back(options.floats ? float_product(first, *std::move(writer))
-                                      : picture_product(shown, *std::move(writer)));
+    products.push_back(options.products.floats ? float_product(first, *std::move(writer))
+                                               : picture_product(shown, *std::move(writer)));
   }
-  if (!options.sparse.empty()) {
-    auto writer = make_event_list_writer(options.sparse, first.sensor());
+  if (!options.products.sparse.empty()) {
+    auto writer = make_event_list_writer(options.products.sparse, first.sensor());
     if (!writer) return writer.error();
     products.push_back(event_product(first, *std::move(writer)));
   }
@@ -152,8 +145,7 @@ bool can_be_replayed(const RenderOptions& options, OutputKind kind) {
   std::error_code ignored;
   const StreamOptions& s = options.stream;
   const bool many = kind != OutputKind::image && options.frames.at.empty();
-  const bool pictures =
-      !options.floats && options.encoding.empty() && options.sparse.empty() && !options.window;
+  const bool pictures = !options.products.special() && !options.window;
   return many && pictures && s.representation == "scarf" && !s.cpu && s.filters.empty() &&
          !options.decode_on_device && std::filesystem::is_regular_file(s.file, ignored);
 }
@@ -240,18 +232,7 @@ void add_render(CLI::App& program, Command& command) {
          "A folder of PNG frames, a video (.mp4, .avi), an array of frames (.npy, .h5), or one image of the "
          "end (.png, .pgm)")
       ->required();
-  const std::string what = "What";
-  app->add_option_function<std::string>(
-         "--pixels", [options](const std::string& word) { options->floats = word == "float"; },
-         "u8 or float, default u8; float is offered for .npy and .h5")
-      ->check(CLI::IsMember({"u8", "float"}))
-      ->group(what);
-  app->add_option("--encoding", options->encoding,
-                  "A tensor of the active events instead of a picture, into an .h5: one of " +
-                      encoding_names() + ", such as voxel_grid:bins=5")
-      ->group(what);
-  app->add_option("--sparse", options->sparse, "File for the sparse events of each frame (.h5, .npz)")
-      ->group(what);
+  add_product_options(*app, options->products, "File for the sparse events of each frame (.h5, .npz)");
   add_frame_options(*app, options->frames, "Most frames that one gap in the recording may make due");
   app->add_option_function<int64_t>(
          "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },

@@ -87,10 +87,10 @@ struct FormatInfo {
 std::vector<FormatInfo> formats();
 
 /// Opens a recording: a file, a folder where the format is one, or "-", which is standard input. The format
-/// is recognised by content, not by name, unless `options` names it. Errors: io (cannot open), unrecognised (no
-/// format is like this: most likely no recording), bad_input (broken from the start, events in a format that
-/// is not read, the sensor disagrees with `options`), illegal_parameter (an option that is out of range or of
-/// no use to the format).
+/// is recognised by content, not by name, unless `options` names it. Errors: io (cannot open), unrecognised
+/// (no format is like this, or it holds no events: most likely no recording), bad_input (broken from the
+/// start, events in a format that is not read, the sensor disagrees with `options`), illegal_parameter (an
+/// option that is out of range or of no use to the format).
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options = {});
 
 /// The sensor size of a source, or the error that asks for `--geometry WxH`.

@@ -9,7 +9,7 @@ namespace scarf {
 
 enum class ErrorCode {
   illegal_parameter,  ///< a parameter is outside its legal range; the message names both
-  unrecognised,       ///< a file or folder is in no format that scarf knows
+  unrecognised,       ///< a file or folder is in no format that scarf knows, or holds no events
   bad_input,          ///< a file or an event stream is not what it should be
   refused_batch,      ///< a batch of events was refused as a whole; the state is unchanged
   would_block,        ///< every staging slot is in flight and the caller asked not to wait

@@ -349,6 +349,10 @@ bool holds_events(const NumpyHeader& header, size_t columns) {
   return columns_in_row(header) == columns;
 }
 
+bool may_hold_events(const NumpyHeader& header) {
+  return header.named ? holds_events(header, 0) : columns_in_row(header) >= 4;
+}
+
 Result<void> require_row_order(const NumpyHeader& header) {
   if (!header.fortran_order || header.shape.size() < 2) return {};
   return bad(
@@ -368,7 +372,8 @@ Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header
     }
     events.columns = named_columns(header);
     if (!holds_events(header, 0)) {
-      return bad("the array's fields are not one each for t, x, y and p; rename them");
+      return Error{ErrorCode::unrecognised,
+                   "the array's fields are not one each for t, x, y and p; rename them"};
     }
   } else {
     const auto columns = columns_from(options.columns.empty() ? "txyp" : options.columns);
@@ -377,7 +382,10 @@ Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header
       return Error{ErrorCode::illegal_parameter, "arrays have no column of cameras: use _ instead of c"};
     }
     const size_t found = columns_in_row(header);
-    if (found == 0) return bad("the array has neither named fields nor a row of numbers per event");
+    if (!may_hold_events(header)) {
+      return Error{ErrorCode::unrecognised,
+                   "the array has neither named fields nor a row of four numbers or more per event"};
+    }
     if (found != columns->size()) {
       return bad(text("the array has ", found, " columns, not ", columns->size(),
                       "; name them with --columns, such as txyp_, with _ for columns to skip"));

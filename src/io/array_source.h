@@ -42,8 +42,11 @@ struct EventArrays {
 /// Whether the array can hold all of an event, by names or, if it has `columns` columns, by their order.
 bool holds_events(const NumpyHeader& header, size_t columns);
 
+/// Whether it could, with the right ReadOptions::columns.
+bool may_hold_events(const NumpyHeader& header);
+
 /// The columns of one array, by its names or else by ReadOptions::columns (its own order: t, x, y, p).
-/// Errors: bad_input, illegal_parameter.
+/// Errors: unrecognised, if no options would make events of it; bad_input, illegal_parameter.
 Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header, const ReadOptions& options);
 
 /// Errors: bad_input, if the array is in column order (Fortran), naming what to do.

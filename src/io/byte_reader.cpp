@@ -43,9 +43,11 @@ class Descriptor {
 
 }  // namespace
 
+// One byte more than a small input has: that it ends can then be seen without growing.
 ByteReader::ByteReader(ReadSome read_some, uint64_t total)
     : read_some_(std::move(read_some)),
-      buffer_(std::make_unique_for_overwrite<uint8_t[]>(kCapacity)),
+      capacity_(total == 0 ? kCapacity : static_cast<size_t>(std::min<uint64_t>(total + 1, kCapacity))),
+      buffer_(std::make_unique_for_overwrite<uint8_t[]>(capacity_)),
       total_(total) {}
 
 Result<ByteReader> ByteReader::open(const std::string& path) {
@@ -70,10 +72,16 @@ ByteReader ByteReader::over(std::span<const uint8_t> bytes) {
 
 Result<void> ByteReader::refill() {
   if (ended_) return {};
-  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+  auto larger = std::unique_ptr<uint8_t[]>();
+  if (end_ - begin_ == capacity_ && capacity_ < kCapacity) {  // the input is longer than it said
+    capacity_ = kCapacity;
+    larger = std::make_unique_for_overwrite<uint8_t[]>(capacity_);
+  }
+  std::memmove(larger ? larger.get() : buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+  if (larger) buffer_ = std::move(larger);
   end_ -= begin_;
   begin_ = 0;
-  const auto count = read_some_({buffer_.get() + end_, kCapacity - end_});
+  const auto count = read_some_({buffer_.get() + end_, capacity_ - end_});
   if (!count) return count.error();
   end_ += *count;
   ended_ = *count == 0;

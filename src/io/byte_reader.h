@@ -1,4 +1,4 @@
-// Bytes of a file, a pipe or memory, through a buffer of fixed size; never seeks.
+// Bytes of a file, a pipe or memory, through a buffer of bounded size; never seeks.
 #pragma once
 
 #include <cstddef>
@@ -43,6 +43,7 @@ class ByteReader {
 
  private:
   ReadSome read_some_;
+  size_t capacity_;  // of the buffer, which is only as large as the input needs
   std::unique_ptr<uint8_t[]> buffer_;
   size_t begin_ = 0;
   size_t end_ = 0;

@@ -93,7 +93,9 @@ Result<std::unique_ptr<EventSource>> open_dat(Input input, const ReadOptions& op
   if (!sensor) return sensor.error();
   const auto type = take_type(input);
   if (!type) return type.error();
-  if (*type == dat::kTrigger) return bad("the DAT file holds triggers, no events; see `scarf triggers`");
+  if (*type == dat::kTrigger) {
+    return Error{ErrorCode::unrecognised, "the DAT file holds triggers, no events; see `scarf triggers`"};
+  }
   if (*type != dat::kEvent2d && *type != dat::kEventCd) {
     return bad(
         text("the DAT file holds records of type ", int{*type}, "; scarf reads events, types 0 and 12"));

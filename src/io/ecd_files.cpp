@@ -53,9 +53,10 @@ Result<EcdFiles> EcdFiles::find(const Input& input) {
   }
   const auto& found = events.empty() ? texts : events;
   if (found.size() != 1) {
-    return bad(
+    return Error{
+        events.empty() ? ErrorCode::unrecognised : ErrorCode::bad_input,
         text("the zip archive holds ", found.size(), events.empty() ? " text files" : " recordings",
-             "; scarf reads one with one events.txt, or with one text file; unpack it and name a file"));
+             "; scarf reads one with one events.txt, or with one text file; unpack it and name a file")};
   }
   const size_t slash = found[0].rfind('/');
   files.folder_ = slash == std::string::npos ? "" : found[0].substr(0, slash + 1);
@@ -70,6 +71,10 @@ const ZipArchive::Member* EcdFiles::member(std::string_view name) const {
     if (member.name == path) return &member;
   }
   return nullptr;
+}
+
+bool EcdFiles::named_events() const {
+  return events_ == kEvents;
 }
 
 bool EcdFiles::has_images() const {

@@ -17,11 +17,13 @@ namespace scarf {
 
 class EcdFiles {
  public:
-  /// Errors: bad_input, for an archive without events.
+  /// Errors: unrecognised, for an archive without events.txt or one text file; bad_input.
   static Result<EcdFiles> find(const Input& input);
 
   /// The lines of the events. Errors: io, bad_input.
   Result<ByteReader> events() const { return open(events_); }
+  /// Whether they are events by their name; else they are the only text of an archive.
+  bool named_events() const;
 
   /// Whether there is a list of images.
   bool has_images() const;

@@ -5,12 +5,20 @@
 #include "io/ecd_files.h"
 #include "io/ecd_frames.h"
 #include "io/known_formats.h"
+#include "io/look_ahead.h"
 #include "io/text_reader.h"
+#include "io/text_start.h"
 
 namespace scarf {
 namespace {
 
 constexpr std::string_view kName = "ecd";
+
+// Whether the text begins as events do.
+Result<bool> begins_with_events(ByteReader& bytes) {
+  if (const auto filled = bytes.fill(kLookAhead.back()); !filled) return filled.error();
+  return find_text_start(bytes.available(), bytes.ended()).has_value();
+}
 
 Result<std::unique_ptr<EventSource>> open_ecd(Input input, const ReadOptions& options) {
   auto files = EcdFiles::find(input);
@@ -20,6 +28,13 @@ Result<std::unique_ptr<EventSource>> open_ecd(Input input, const ReadOptions& op
   if (!size && !options.sensor) return size.error();
   auto events = files->events();
   if (!events) return events.error();
+  if (!files->named_events()) {
+    const auto found = begins_with_events(*events);
+    if (!found) return found.error();
+    if (!*found) {
+      return Error{ErrorCode::unrecognised, "the only text of the zip archive does not begin with events"};
+    }
+  }
   input.bytes = *std::move(events);
   return open_text_lines(kName, std::move(input), size ? *size : std::nullopt, options);
 }

@@ -101,7 +101,8 @@ Result<std::unique_ptr<EventSource>> open_event_stream(Input input, const ReadOp
     case kAtis:
       break;
     case kGeneric:
-      return cannot("is a generic one, which holds no events of pixels");
+      return Error{ErrorCode::unrecognised,
+                   "this Event Stream is a generic one, which holds no events of pixels"};
     case kColor:
       return cannot("holds colours, not brightness changes");
     case kAmd:

@@ -21,6 +21,7 @@ enum Type : uint32_t {
 inline constexpr uint32_t kImuWords = 6;
 inline constexpr int kTimeLowBits = 6;
 inline constexpr int kTimeHighBits = 28;
+inline constexpr uint32_t kTimeHighsPerSecond = 1'000'000 >> kTimeLowBits;
 inline constexpr uint32_t kTimeLowMask = (1 << kTimeLowBits) - 1;
 inline constexpr uint32_t kCoordinateMask = 0x7FF;
 inline constexpr uint32_t kTriggerInputMask = 0x1F;

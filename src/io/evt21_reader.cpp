@@ -147,8 +147,7 @@ bool looks_like(std::span<const uint8_t> bytes, ByteOrder order) {
         check.undefined();
     }
   }
-  constexpr uint32_t kOneSecond = 1'000'000 >> evt2::kTimeLowBits;
-  return check.plausible(kOneSecond);
+  return check.plausible(evt2::kTimeHighsPerSecond);
 }
 
 }  // namespace

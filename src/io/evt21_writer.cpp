@@ -1,5 +1,4 @@
 // Writer of EVT2.1 in the byte order `little`: neighbours of a row share a word.
-#include <optional>
 #include <utility>
 
 #include "io/checked_sink.h"
@@ -23,12 +22,7 @@ class Evt21Writer final : public CheckedSink {
     while (!events.empty()) {
       const Event& e = events.front();
       const auto t = static_cast<uint64_t>(e.t);
-      const uint64_t high = t >> evt2::kTimeLowBits;
-      if (high != high_) {
-        carry_high_counter<evt2::kTimeHighBits>(high_, high,
-                                                [&](uint32_t value) { put(evt21::kTimeHigh, value, 0); });
-        high_ = high;
-      }
+      high_.carry_to(t >> evt2::kTimeLowBits, [&](uint32_t value) { put(evt21::kTimeHigh, value, 0); });
       // Cameras' masks begin at multiples of their length.
       const auto base = static_cast<uint32_t>(e.x / evt21::kMaskLength * evt21::kMaskLength);
       const size_t run = pixel_run(events, base + evt21::kMaskLength);
@@ -44,7 +38,7 @@ class Evt21Writer final : public CheckedSink {
     output_.append_word(uint64_t{type} << 60 | uint64_t{payload} << 32 | mask);
   }
 
-  std::optional<uint64_t> high_;  // what a reader's TIME_HIGH counter holds, wraps included
+  HeldHigh<evt2::kTimeHighBits> high_;
 };
 
 }  // namespace

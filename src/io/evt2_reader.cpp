@@ -136,8 +136,7 @@ bool looks_like_evt2(std::span<const uint8_t> bytes) {
         check.undefined();
     }
   }
-  constexpr uint32_t kOneSecond = 1'000'000 >> evt2::kTimeLowBits;
-  return check.plausible(kOneSecond);
+  return check.plausible(evt2::kTimeHighsPerSecond);
 }
 
 bool time_highs_at_every_place(std::span<const uint8_t> bytes) {

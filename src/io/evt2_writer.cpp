@@ -1,5 +1,4 @@
 // Writer of EVT2: one TIME_HIGH word per change of the time's upper bits.
-#include <optional>
 #include <utility>
 
 #include "io/checked_sink.h"
@@ -21,13 +20,8 @@ class Evt2Writer final : public CheckedSink {
   void encode(std::span<const Event> events) override {
     for (const Event& e : events) {
       const auto t = static_cast<uint64_t>(e.t);
-      const uint64_t high = t >> evt2::kTimeLowBits;
-      if (high != high_) {
-        carry_high_counter<evt2::kTimeHighBits>(high_, high,
-                                                [&](uint32_t value) { put(evt2::kTimeHigh, value); });
-        high_ = high;
-      }
-      const uint32_t low = t & ((1 << evt2::kTimeLowBits) - 1);
+      high_.carry_to(t >> evt2::kTimeLowBits, [&](uint32_t value) { put(evt2::kTimeHigh, value); });
+      const uint32_t low = t & evt2::kTimeLowMask;
       put(e.p ? evt2::kOn : evt2::kOff, low << 22 | uint32_t{e.x} << 11 | e.y);
     }
   }
@@ -35,7 +29,7 @@ class Evt2Writer final : public CheckedSink {
  private:
   void put(evt2::Type type, uint32_t payload) { output_.append_word(uint32_t{type} << 28 | payload); }
 
-  std::optional<uint64_t> high_;  // what a reader's TIME_HIGH counter holds, wraps included
+  HeldHigh<evt2::kTimeHighBits> high_;
 };
 
 }  // namespace

@@ -142,8 +142,7 @@ bool looks_like_evt4(std::span<const uint8_t> bytes) {
         word == kPaddingWord ? check.other() : check.undefined();
     }
   }
-  constexpr uint32_t kOneSecond = 1'000'000 >> evt2::kTimeLowBits;
-  return check.plausible(kOneSecond);
+  return check.plausible(evt2::kTimeHighsPerSecond);
 }
 
 const Format kEvt4Format = {.name = kName,

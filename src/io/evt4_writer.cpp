@@ -1,5 +1,4 @@
 // Writer of EVT4: single events, and masks where they are shorter.
-#include <optional>
 #include <utility>
 
 #include "io/checked_sink.h"
@@ -25,12 +24,7 @@ class Evt4Writer final : public CheckedSink {
     while (!events.empty()) {
       const Event& e = events.front();
       const auto t = static_cast<uint64_t>(e.t);
-      const uint64_t high = t >> evt2::kTimeLowBits;
-      if (high != high_) {
-        carry_high_counter<evt2::kTimeHighBits>(high_, high,
-                                                [&](uint32_t value) { put(evt4::kTimeHigh, value); });
-        high_ = high;
-      }
+      high_.carry_to(t >> evt2::kTimeLowBits, [&](uint32_t value) { put(evt4::kTimeHigh, value); });
       const auto low = static_cast<uint32_t>(t & evt2::kTimeLowMask);
       const uint32_t fields = low << 22 | uint32_t{e.x} << 11 | e.y;
       const size_t run = pixel_run(events, e.x + uint32_t{evt4::kMaskLength});
@@ -48,7 +42,7 @@ class Evt4Writer final : public CheckedSink {
  private:
   void put(evt4::Type type, uint32_t payload) { output_.append_word(uint32_t{type} << 28 | payload); }
 
-  std::optional<uint64_t> high_;  // what a reader's TIME_HIGH counter holds, wraps included
+  HeldHigh<evt2::kTimeHighBits> high_;
 };
 
 }  // namespace

@@ -45,4 +45,20 @@ void carry_high_counter(std::optional<uint64_t> from, uint64_t to, Emit emit) {
   if (!emitted || now != to) emit(static_cast<uint32_t>(to & kMaximum));
 }
 
+/// What a reader's counter holds, as the writer of its file keeps it.
+template <int kBits>
+class HeldHigh {
+ public:
+  /// Calls `emit` with what must be written for the reader to hold `to`, wraps included; nothing if it does.
+  template <class Emit>
+  void carry_to(uint64_t to, Emit emit) {
+    if (to == held_) return;
+    carry_high_counter<kBits>(held_, to, emit);
+    held_ = to;
+  }
+
+ private:
+  std::optional<uint64_t> held_;
+};
+
 }  // namespace scarf

@@ -14,16 +14,8 @@ namespace {
 constexpr size_t kHeaderBytes = 192;
 
 std::string header_for(uint64_t events) {
-  std::string header(kNumpyMagic);
-  constexpr size_t kPreamble = kNumpyMagic.size() + 4;
-  constexpr size_t kLength = kHeaderBytes - kPreamble;
-  header += {'\1', '\0', static_cast<char>(kLength & 0xFF), static_cast<char>(kLength >> 8)};
-  header += text(
-      "{'descr': [('x', '<u2'), ('y', '<u2'), ('p', '<i2'), ('', '|V2'), ('t', '<i8')], "
-      "'fortran_order': False, 'shape': (",
-      events, ",), }");
-  header.resize(kHeaderBytes - 1, ' ');
-  return header + "\n";
+  return numpy_header_text("[('x', '<u2'), ('y', '<u2'), ('p', '<i2'), ('', '|V2'), ('t', '<i8')]",
+                           text("(", events, ",)"), kHeaderBytes);
 }
 
 class NpyWriter final : public CheckedSink {

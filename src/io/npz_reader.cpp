@@ -80,6 +80,17 @@ EventArrays column_arrays(std::vector<NamedArray>& arrays) {
   return events;
 }
 
+// Whether some array, or all together by their names, could be events if they were whole and well named.
+bool may_hold_events(const std::vector<NamedArray>& arrays) {
+  const auto has = [&](Column content) {
+    return std::any_of(arrays.begin(), arrays.end(),
+                       [&](const NamedArray& a) { return column_named(a.name) == content; });
+  };
+  if (has(Column::t) && has(Column::x) && has(Column::y) && has(Column::p)) return true;
+  return std::any_of(arrays.begin(), arrays.end(),
+                     [](const NamedArray& a) { return may_hold_events(a.header); });
+}
+
 Result<NamedArray*> choose(std::vector<NamedArray>& arrays, const ReadOptions& options) {
   size_t width = 4;
   if (!options.columns.empty()) width = options.columns.size();
@@ -96,8 +107,10 @@ Result<NamedArray*> choose(std::vector<NamedArray>& arrays, const ReadOptions& o
   }
   if (candidates.size() == 1) return candidates[0];
   if (candidates.empty()) {
-    return bad(text("none of the arrays (", names_of(all),
-                    ") has fields or columns t, x, y, p; name the columns with --columns, such as txyp_"));
+    const bool hope = may_hold_events(arrays);
+    return Error{hope ? ErrorCode::bad_input : ErrorCode::unrecognised,
+                 text("none of the arrays (", names_of(all), ") has fields or columns t, x, y, p",
+                      hope ? "; name the columns of one with --stream and --columns, such as txyp_" : "")};
   }
   return bad(text("several arrays hold events: ", names_of(candidates), "; choose one with --stream"));
 }

@@ -220,6 +220,15 @@ bool is_number(const NumpyType& type) {
   }
 }
 
+std::string numpy_header_text(std::string_view type, std::string_view shape, size_t size) {
+  std::string header(kNumpyMagic);
+  const size_t length = size - kNumpyMagic.size() - 4;  // behind the version and the length itself
+  header += {'\1', '\0', static_cast<char>(length & 0xFF), static_cast<char>(length >> 8)};
+  header += text("{'descr': ", type, ", 'fortran_order': False, 'shape': ", shape, ", }");
+  header.resize(size - 1, ' ');
+  return header + "\n";
+}
+
 Result<NumpyHeader> read_numpy_header(ByteReader& bytes) {
   constexpr size_t kVersionAt = kNumpyMagic.size();
   constexpr size_t kLengthAt = kVersionAt + 2;

@@ -41,6 +41,11 @@ struct NumpyHeader {
 
 inline constexpr std::string_view kNumpyMagic = "\x93NUMPY";
 
+/// A header of `size` bytes in version 1 for items of `type` and a `shape`, both as Python writes them, such
+/// as
+/// "'<f4'" and "(3, 2)"; padded, so that the shape can be written again when it is known.
+std::string numpy_header_text(std::string_view type, std::string_view shape, size_t size);
+
 /// Takes the header off the front. Errors: io; bad_input, for a header that is none or describes items of
 /// more than 64 KiB.
 Result<NumpyHeader> read_numpy_header(ByteReader& bytes);

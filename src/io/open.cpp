@@ -120,8 +120,11 @@ Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options
   const auto format = options.format.empty() ? recognise(input) : find_format(options.format);
   if (!format) return named(name, format.error());
   auto source = open_as<Source>(**format, std::move(input), options);
-  if (!source) return named(name, source.error());
-  return source;
+  if (source) return source;
+  Error error = named(name, source.error());
+  // Who names the format says that this is a recording.
+  if (!options.format.empty() && error.code == ErrorCode::unrecognised) error.code = ErrorCode::bad_input;
+  return error;
 }
 
 template <class Source>

@@ -68,7 +68,14 @@ Result<RosTopic> RosTopic::open(std::unique_ptr<RosBag> bag, const std::string& 
     if (found || topic.kept_.size() < 2 * kFirstMessages) topic.kept_.push_back(std::move(kept));
   }
   const auto chosen = choose_stream(stream, names, what);
-  if (!chosen) return chosen.error();
+  if (!chosen) {
+    // Events may have been in what is broken.
+    const auto broken = std::find_if(topic.kept_.begin(), topic.kept_.end(),
+                                     [](const Kept& kept) { return !kept.message.damage.empty(); });
+    if (!names.empty() || broken == topic.kept_.end()) return chosen.error();
+    return Error{ErrorCode::bad_input, text(chosen.error().message, " before byte ", broken->message.byte,
+                                            ": ", broken->message.damage)};
+  }
   topic.topic_ = names[*chosen].name;
   for (const Kept& kept : topic.kept_) {
     if (topic.sensor_ || !kept.message.damage.empty()) continue;

@@ -107,7 +107,12 @@ Result<std::unique_ptr<RosBag>> open_rosbag2_database(const std::string& path) {
     return Statement(statement);
   };
   const Statement list = prepare("SELECT id, name, type, serialization_format FROM topics");
-  if (!list) return refused(handle, "find the topics of a ROS 2 bag");
+  if (!list) {
+    Error error = refused(handle, "find the topics of a ROS 2 bag");
+    // A sound database without them is of another program.
+    if (sqlite3_errcode(handle) == SQLITE_ERROR) error.code = ErrorCode::unrecognised;
+    return error;
+  }
   std::map<int64_t, Rosbag2Database::Topic> topics;
   int state = sqlite3_step(list.get());
   for (; state == SQLITE_ROW; state = sqlite3_step(list.get())) {

@@ -100,8 +100,9 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
       in_list = false;
     }
   }
+  // Other programs have a metadata.yaml of their own.
   if (paths.empty())
-    return Error{ErrorCode::bad_input, text(kMetadata, " names no files (relative_file_paths)")};
+    return Error{ErrorCode::unrecognised, text(kMetadata, " names no files (relative_file_paths)")};
   return paths;
 }
 

@@ -18,7 +18,7 @@ std::string list(std::span<const StreamName> streams) {
 
 Result<size_t> choose_stream(const std::string& wanted, std::span<const StreamName> streams,
                              std::string_view what) {
-  if (streams.empty()) return Error{ErrorCode::bad_input, text("the recording has no ", what)};
+  if (streams.empty()) return Error{ErrorCode::unrecognised, text("the recording has no ", what)};
   if (!wanted.empty()) {
     for (size_t i = 0; i < streams.size(); ++i) {
       if (streams[i].name == wanted) return i;

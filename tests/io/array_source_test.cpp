@@ -10,25 +10,11 @@
 namespace scarf {
 namespace {
 
+using test::npy_file;
 using test::zip_file;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-// An array with what `describe` says, of version 1 or 2.
-Bytes npy_file(const std::string& type, const std::string& shape, const Bytes& content, int version = 1,
-               const char* order = "False") {
-  const std::string header =
-      "{'descr': " + type + ", 'fortran_order': " + order + ", 'shape': " + shape + ", }\n";
-  Bytes bytes = bytes_of("\x93NUMPY");
-  bytes.push_back(static_cast<uint8_t>(version));
-  bytes.push_back(0);
-  append_little_endian(bytes, static_cast<uint16_t>(header.size()));
-  if (version > 1) append_little_endian(bytes, uint16_t{0});
-  for (const char c : header) bytes.push_back(static_cast<uint8_t>(c));
-  bytes.insert(bytes.end(), content.begin(), content.end());
-  return bytes;
-}
 
 template <class Number>
 Bytes numbers(std::initializer_list<Number> values) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "io_test_helpers.h"
+#include "tests/support/archive_bytes.h"
 
 namespace scarf {
 namespace {
@@ -80,6 +81,25 @@ TEST(PropheseeHeader, AnEndlessLineIsAnErrorAndIsNotBuffered) {
   EXPECT_LE(served, ByteReader::kCapacity);
 }
 
+TEST(Open, AnInputLongerThanItSaysIsReadWhole) {
+  Bytes bytes(200'000);
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(i * i >> 5);
+  for (const uint64_t claimed : {uint64_t{1}, uint64_t{100}, bytes.size() + 1}) {
+    const auto read_some = [&, rest = std::span(bytes)](std::span<uint8_t> out) mutable -> Result<size_t> {
+      const size_t count = std::min<size_t>(out.size(), rest.size());
+      std::copy_n(rest.begin(), count, out.begin());
+      rest = rest.subspan(count);
+      return count;
+    };
+    ByteReader reader(read_some, claimed);
+    ASSERT_TRUE(reader.fill(1000).ok());
+    reader.skip(7);
+    ASSERT_TRUE(reader.fill(bytes.size()).ok());
+    EXPECT_TRUE(std::ranges::equal(reader.available(), std::span(bytes).subspan(7)));
+    EXPECT_TRUE(reader.ended());
+  }
+}
+
 TEST(Open, FileAndOptionMustAgree) {
   EXPECT_EQ(sensor_of("% evt 2.0\n% end\n", {SensorSize{304, 240}}), (SensorSize{304, 240}));
   EXPECT_EQ(sensor_of("% evt 2.0\n% geometry 304x240\n% end\n", {SensorSize{304, 240}}),
@@ -114,6 +134,51 @@ TEST(Open, AMissingFileIsAnIoErrorAndAnyFolderNoRecording) {
   ASSERT_FALSE(folder.ok());
   EXPECT_EQ(folder.error().code, ErrorCode::unrecognised);
   EXPECT_THAT(folder.error().message, HasSubstr("folder"));
+}
+
+// Such files lie beside recordings: they are none, rather than broken ones.
+TEST(Open, WhatHoldsNoEventsIsNoRecording) {
+  using test::npy_file;
+  using test::zip_file;
+  const Bytes labels = npy_file("[('t', '<u8'), ('w', '<f4')]", "(1,)", Bytes(12));
+  const Bytes matrix = npy_file("'<f8'", "(3, 3)", Bytes(72));
+  const Bytes five_columns = npy_file("'<i8'", "(1, 5)", Bytes(40));
+  const Bytes column = npy_file("'<i8'", "(1,)", Bytes(8));
+  const Bytes prose = bytes_of("Once upon a time\n");
+  const auto code = [](const Bytes& bytes, const ReadOptions& options = {}) {
+    const TemporaryFile file(bytes);
+    const auto source = open_events(file.path(), options);
+    return source.ok() ? std::nullopt : std::optional(source.error().code);
+  };
+  EXPECT_EQ(code(labels), ErrorCode::unrecognised);
+  EXPECT_EQ(code(matrix), ErrorCode::unrecognised);
+  EXPECT_EQ(code(five_columns), ErrorCode::bad_input);  // --columns may make events of it
+  EXPECT_EQ(code(labels, read_options("", "", "", "npy")), ErrorCode::bad_input);
+  EXPECT_EQ(code(with_words<uint32_t>("% Version 2\n\x0E\x08", {3, 0x0200u})), ErrorCode::unrecognised);
+
+  // An MCAP with nothing in it, and one that ends before it can tell.
+  const Bytes mcap = bytes_of("\x89MCAP0\r\n");
+  Bytes empty = mcap;
+  for (const int byte : {15, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}) empty.push_back(static_cast<uint8_t>(byte));
+  EXPECT_EQ(code(empty), ErrorCode::unrecognised);
+  EXPECT_EQ(code(mcap), ErrorCode::bad_input);
+
+  if (const auto missing = missing_library("npz"); !missing.empty()) GTEST_SKIP() << missing;
+  EXPECT_EQ(code(zip_file({{"labels.npy", labels}, {"K.npy", matrix}})), ErrorCode::unrecognised);
+  EXPECT_EQ(code(zip_file({{"events.npy", five_columns}})), ErrorCode::bad_input);
+  EXPECT_EQ(code(zip_file({{"t.npy", column}, {"x.npy", column}, {"y.npy", column}, {"p.npy", matrix}})),
+            ErrorCode::bad_input);
+  EXPECT_EQ(code(zip_file({{"a.png", Bytes(9)}, {"b.png", Bytes(9)}})), ErrorCode::unrecognised);
+  EXPECT_EQ(code(zip_file({{"README.txt", prose}})), ErrorCode::unrecognised);
+  EXPECT_EQ(code(zip_file({{"a/events.txt", prose}, {"b/events.txt", prose}})), ErrorCode::bad_input);
+}
+
+TEST(Open, AFolderOfAnotherProgramIsNoRecording) {
+  const TemporaryFolder folder;
+  folder.add("metadata.yaml", bytes_of("name: somebody else's\n"));
+  const auto source = open_events(folder.path());
+  ASSERT_FALSE(source.ok());
+  EXPECT_EQ(source.error().code, ErrorCode::unrecognised);
 }
 
 TEST(Open, RequireSensorAsksForTheOption) {

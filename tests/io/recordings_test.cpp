@@ -83,7 +83,12 @@ TEST(Dat, NCarsIsReadAsKnown) {
   EXPECT_EQ(r.events.front(), (Event{0, 25, 8, 0}));
   EXPECT_EQ(r.events.back(), (Event{99'952, 75, 28, 1}));
   EventDigest digest;
-  for (const Event& e : r.events) digest.add(e);
+  size_t on = 0;
+  for (const Event& e : r.events) {
+    digest.add(e);
+    on += e.p;
+  }
+  EXPECT_EQ(on, 1350u);
   EXPECT_EQ(digest.hex(), "ad3600a8858f0dd69ff8452b20dff06d65edf147a5373f72066b84f262abda82");
 }
 

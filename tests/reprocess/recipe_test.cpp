@@ -72,6 +72,12 @@ TEST_F(RecipeFile, MistakesNameTheLineAndTheSetting) {
   EXPECT_THAT(error_of("output = \".tmp/\"\n"), HasSubstr("taken"));
   EXPECT_THAT(error_of("rate = 30\n"), HasSubstr("output"));  // the default output is one picture
   EXPECT_THAT(error_of("output = \".frames/\"\nrate = 30\nevery = 5\n"), HasSubstr("--rate"));
+  EXPECT_THAT(error_of("pixels = \"float\"\n"), HasSubstr(".npy"));
+  EXPECT_THAT(error_of("output = \".npy\"\nencoding = \"tore\"\n"), HasSubstr(".h5"));
+  EXPECT_THAT(error_of("output = \".h5\"\nencoding = \"nothing\"\n"), HasSubstr("nothing"));
+  EXPECT_THAT(error_of("output = \".h5\"\nencoding = \"tore\"\npixels = \"float\"\n"), HasSubstr("pixels"));
+  EXPECT_THAT(error_of("sparse = \".txt\"\n"), HasSubstr(".npz"));
+  EXPECT_THAT(error_of("representation = \"aae\"\nsparse = \".npz\"\n"), HasSubstr("aae"));
   EXPECT_THAT(error_of("[reading]\ngeometry = \"1x1\"\n"), HasSubstr("reading"));
   EXPECT_THAT(error_of("\n[[input]]\ngeometry = \"1x1\"\n"), HasSubstr("match"));
   EXPECT_THAT(error_of("\n[[input]]\nmatch = \"*\"\ngeometry = \"x\"\n"), HasSubstr("line 2"));

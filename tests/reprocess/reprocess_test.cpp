@@ -1,42 +1,19 @@
 // scarf reprocess from outside: results, records, failures, crashes, and several processes at once.
-#include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 
-#include <algorithm>
-#include <csignal>
-#include <cstdlib>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <random>
-#include <thread>
-
-#include "core/text.h"
 #include "scarf/io.h"
+#include "tests/reprocess/reprocess_runs.h"
 #include "tests/tools/event_fixtures.h"
-#include "tests/tools/temporary_folder.h"
 
 namespace scarf::tools {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
-namespace fs = std::filesystem;
 
 constexpr SensorSize kSensor{64, 48};
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out;
-  std::string err;
-};
-
-class Reprocess : public testing::Test {
+class Reprocess : public ReprocessTest {
  protected:
-  std::string path(const std::string& name) const { return folder_.path(name); }
-
   void record(const std::string& name, uint64_t seed, size_t count = 3000) {
     fs::create_directories(fs::path(path(name)).parent_path());
     auto sink = *create_events(path(name), seed % 2 == 0 ? "text" : "evt3", kSensor);
@@ -49,44 +26,6 @@ class Reprocess : public testing::Test {
     write_text(path("in/README.md"), "Once upon a time\nthere was a camera\n");
     write_text(path("in/a/notes.json"), "{}\n");
   }
-
-  Outcome shell(const std::string& command) const {
-    const int status =
-        std::system(text("exec >", path("stdout"), " 2>", path("stderr"), "; ", command).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(path("stdout")),
-            content_of(path("stderr"))};
-  }
-  Outcome run(const std::string& arguments) const {
-    return shell(text("exec ", SCARF_PROGRAM, " reprocess ", arguments));
-  }
-  std::string in_to(const std::string& out, const std::string& more = "--cpu") const {
-    return text(path("in"), " -o ", path(out), " ", more);
-  }
-
-  static Json json_in(const std::string& file) { return Json::parse(content_of(file), nullptr, false); }
-  // Every record below a folder, without what depends on the clock, and on who computed it.
-  std::map<std::string, Json> records(const std::string& out, bool with_device = true) const {
-    std::map<std::string, Json> found;
-    for (const auto& entry : fs::recursive_directory_iterator(path(out))) {
-      const std::string name = entry.path().lexically_relative(path(out)).generic_string();
-      if (!name.ends_with(".json") || name.starts_with("summary")) continue;
-      Json json = json_in(entry.path().string());
-      EXPECT_TRUE(json.contains("timings")) << name;
-      json.erase("timings");
-      if (!with_device) json.erase("device");
-      found[name] = json;
-    }
-    return found;
-  }
-  std::vector<std::string> unfinished(const std::string& out) const {
-    std::vector<std::string> found;
-    for (const auto& entry : fs::recursive_directory_iterator(path(out))) {
-      if (entry.path().string().ends_with(".tmp")) found.push_back(entry.path().string());
-    }
-    return found;
-  }
-
-  const TemporaryFolder folder_;
 };
 
 TEST_F(Reprocess, MirrorsTheTreeWithPicturesAndRecords) {
@@ -133,6 +72,32 @@ TEST_F(Reprocess, ARecipeHasSeveralOutputsAndInstantsOfASideFile) {
   EXPECT_FALSE(fs::exists(path("out/b.raw.frames/frame_000001.png")));
   EXPECT_TRUE(fs::exists(path("out/a.raw.avi")) && fs::exists(path("out/b.raw.png")));
   EXPECT_EQ(json_in(path("out/a.raw.json"))["counts"]["frames"], 2);
+}
+
+TEST_F(Reprocess, ARecipeHasTheProductsOfRender) {
+  for (const FormatInfo& format : formats()) {
+    if (!format.missing.empty()) GTEST_SKIP() << format.name << " needs " << format.missing;
+  }
+  record("in/a.raw", 1);
+  write_text(path("recipe.toml"),
+             "output = [\".png\", \".npy\", \".tensors.h5\"]\npixels = \"float\"\n"
+             "encoding = \"voxel_grid:bins=5\"\nsparse = \".events.npz\"\nevery = 1000\n");
+  for (const std::string machine : {"cpu", "device"}) {
+    const Outcome outcome = run(
+        in_to(machine, text(machine == "cpu" ? "--cpu" : "", " --verify 1 --recipe ", path("recipe.toml"))));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err << outcome.out;
+    const Json record = json_in(path(machine + "/a.raw.json"));
+    EXPECT_EQ(record["outputs"], Json({".png", ".npy", ".tensors.h5", ".events.npz"}));
+    EXPECT_EQ(record["counts"]["frames"], 3);
+    const Outcome rendered = shell(text(SCARF_PROGRAM, " render --cpu ", path("in/a.raw"), " -o ",
+                                        path("rendered.npy"), " --pixels float --every 1000"));
+    ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
+    EXPECT_EQ(content_of(path(machine + "/a.raw.npy")), content_of(path("rendered.npy")));
+    EXPECT_EQ(content_of(path(machine + "/a.raw.csv")), content_of(path("rendered.csv")));
+    EXPECT_GT(fs::file_size(path(machine + "/a.raw.tensors.h5")), 0u);
+    EXPECT_GT(fs::file_size(path(machine + "/a.raw.events.npz")), 0u);
+  }
+  EXPECT_EQ(records("cpu", false), records("device", false));
 }
 
 TEST_F(Reprocess, BadInputsAreToldAndTheRestGoesOn) {
@@ -223,37 +188,7 @@ TEST_F(Reprocess, KilledAtAnyMomentItResumesToTheSameResults) {
   write_text(path("recipe.toml"), "output = [\".png\", \".frames/\"]\nevery = 4000\n");
   const std::string more = text("--cpu --jobs 2 --resume --recipe ", path("recipe.toml"));
   ASSERT_EQ(run(in_to("whole", more)).exit_code, 0);
-  std::mt19937_64 random(7);
-  std::map<std::string, ino_t> finished;
-  for (int kill_number = 0; kill_number < 20; ++kill_number) {
-    const pid_t child = fork();
-    if (child == 0) {
-      const int nowhere = open("/dev/null", O_WRONLY);
-      dup2(nowhere, STDOUT_FILENO);
-      dup2(nowhere, STDERR_FILENO);
-      execl("/bin/sh", "sh", "-c", text("exec ", SCARF_PROGRAM, " reprocess ", in_to("out", more)).c_str(),
-            nullptr);
-      _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20 + random() % 150));
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
-    if (!fs::exists(path("out"))) continue;
-    for (const auto& [name, record] : records("out")) {
-      struct stat status {};
-      ASSERT_EQ(stat(path("out/" + name).c_str(), &status), 0);
-      const auto [at, fresh] = finished.try_emplace(name, status.st_ino);
-      EXPECT_EQ(at->second, status.st_ino) << name << " was done again";
-      for (const Json& output : record["outputs"]) {
-        const std::string place =
-            path("out/" + record["input"].get<std::string>() + output.get<std::string>());
-        EXPECT_TRUE(fs::exists(place)) << place;
-        if (place.ends_with('/')) {
-          EXPECT_TRUE(fs::exists(place + "frames.csv")) << place;
-        }
-      }
-    }
-  }
+  ASSERT_NO_FATAL_FAILURE(kill_twenty_times("out", in_to("out", more), 170));
   ASSERT_EQ(run(in_to("out", more)).exit_code, 0);
   EXPECT_EQ(records("out"), records("whole"));
   EXPECT_TRUE(unfinished("out").empty());

@@ -1,4 +1,4 @@
-// Small archives and images, byte by byte.
+// Small archives, arrays and images, byte by byte.
 #pragma once
 
 #include <algorithm>
@@ -105,6 +105,20 @@ inline std::vector<uint8_t> png_file(uint32_t width, uint32_t height, const std:
   add_chunk("IDAT", data);
   add_chunk("IEND", {});
   return png;
+}
+
+/// A NumPy array: the text of its type, such as "'<i8'", and of its shape; version 1 or 2 of the format.
+inline std::vector<uint8_t> npy_file(const std::string& type, const std::string& shape,
+                                     const std::vector<uint8_t>& content, int version = 1,
+                                     const std::string& order = "False") {
+  const std::string header =
+      "{'descr': " + type + ", 'fortran_order': " + order + ", 'shape': " + shape + ", }\n";
+  std::vector<uint8_t> bytes = {0x93, 'N', 'U', 'M', 'P', 'Y', static_cast<uint8_t>(version), 0};
+  append_little_endian(bytes, static_cast<uint16_t>(header.size()));
+  if (version > 1) append_little_endian(bytes, uint16_t{0});
+  bytes.insert(bytes.end(), header.begin(), header.end());
+  bytes.insert(bytes.end(), content.begin(), content.end());
+  return bytes;
 }
 
 }  // namespace scarf::test

@@ -11,17 +11,11 @@
 namespace scarf::tools::reprocess {
 namespace {
 
-// Hands on to a writer that somebody else owns, or to none.
-class BorrowedWriter final : public FrameWriter {
+// For pictures that are asked for because asking changes the state.
+class NoWriter final : public FrameWriter {
  public:
-  explicit BorrowedWriter(FrameWriter* writer) : writer_(writer) {}
-  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
-    return writer_ == nullptr ? Result<void>() : writer_->write(frame, picture);
-  }
-  Result<void> finish() override { return writer_ == nullptr ? Result<void>() : writer_->finish(); }
-
- private:
-  FrameWriter* const writer_;
+  Result<void> write(const Frame& /*frame*/, const cv::Mat& /*picture*/) override { return {}; }
+  Result<void> finish() override { return {}; }
 };
 
 Result<bool> pictures_matter(const Options& options) {
@@ -37,6 +31,7 @@ FrameOptions with_side_file(FrameOptions frames, const std::string& recording) {
 }
 
 bool has_sequence(const Options& options) {
+  if (!options.products.sparse.empty()) return true;
   for (const std::string& output : options.outputs) {
     const auto kind = output_kind("recording" + output);
     if (kind && *kind != OutputKind::image) return true;
@@ -51,11 +46,11 @@ std::string Machine::name() const {
 }
 
 Result<Computed> compute(OpenRecording recording, const std::string& path, const Options& options,
-                         const Machine& machine, FrameWriter* writer, Meter& meter) {
+                         const Machine& machine, const MakeProducts& make_products, Meter& meter) {
   const auto matter = pictures_matter(options);
   if (!matter) return matter.error();
   std::unique_ptr<Instants> instants;
-  if (has_sequence(options) && (writer != nullptr || *matter)) {
+  if (has_sequence(options) && (make_products || *matter)) {
     auto made = make_instants(with_side_file(options.frames, path), OutputKind::folder);
     if (!made) return made.error();
     instants = at_most(*std::move(made), options.frames.max_frames);
@@ -70,7 +65,13 @@ Result<Computed> compute(OpenRecording recording, const std::string& path, const
   std::vector<Shown> shown;
   shown.push_back({std::move(implementation->representation), ""});
   std::vector<std::unique_ptr<FrameProduct>> products;
-  products.push_back(picture_product(shown, std::make_unique<BorrowedWriter>(writer)));
+  if (make_products) {
+    auto made = make_products(shown);
+    if (!made) return made.error();
+    products = *std::move(made);
+  } else {
+    products.push_back(picture_product(shown, std::make_unique<NoWriter>()));
+  }
   const auto renderer = make_live_renderer(shown, std::move(products));
   EventDigest events;
   {

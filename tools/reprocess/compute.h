@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 #include "scarf/gpu.h"
 #include "scarf/image.h"
 #include "scarf/io.h"
-#include "tools/frame_writer.h"
+#include "tools/products.h"
 #include "tools/reprocess/settings.h"
 
 namespace scarf::tools::reprocess {
@@ -49,10 +50,14 @@ struct Computed {
   uint64_t frames = 0;
 };
 
-/// `recording` as open_recording returned it, and `path` where it came from. Without a writer the pictures
+/// Makes what is written of each frame. `shown` has one representation.
+using MakeProducts =
+    std::function<Result<std::vector<std::unique_ptr<FrameProduct>>>(const std::vector<Shown>& shown)>;
+
+/// `recording` as open_recording returned it, and `path` where it came from. Without `make_products` pictures
 /// are made only where a later digest depends on them. Errors: whatever reader, representation or writer say;
 /// bad_input if more frames than allowed are due.
 Result<Computed> compute(OpenRecording recording, const std::string& path, const Options& options,
-                         const Machine& machine, FrameWriter* writer, Meter& meter);
+                         const Machine& machine, const MakeProducts& make_products, Meter& meter);
 
 }  // namespace scarf::tools::reprocess

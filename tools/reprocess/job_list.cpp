@@ -191,7 +191,7 @@ Result<void> check_places(const std::vector<Job>& jobs) {
   for (const Job& job : jobs) {
     std::vector<std::string> mine = {text(job.relative, kRecordSuffix),
                                      text(job.relative, kUnfinishedSuffix)};
-    for (const std::string& suffix : job.settings.at("output")) {
+    for (const std::string& suffix : suffixes_of(job.settings)) {
       mine.push_back(job.relative + suffix.substr(0, suffix.size() - (suffix.ends_with('/') ? 1 : 0)));
     }
     for (const std::string& place : mine) {

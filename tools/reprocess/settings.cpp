@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/text.h"
+#include "scarf/encoding.h"
+#include "tools/event_list_writer.h"
 #include "tools/read_options.h"
 #include "tools/reprocess/result_place.h"
 
@@ -29,7 +31,7 @@ std::string known_settings(const CLI::App& app) {
   return names;
 }
 
-Result<void> check_output(const FrameOptions& frames, const std::string& output) {
+Result<void> check_suffix(const std::string& output) {
   const std::string name = output.substr(0, output.size() - (output.ends_with('/') ? 1 : 0));
   if (name.empty() || name.find('/') != name.npos) {
     return illegal(text("output '", output,
@@ -38,6 +40,11 @@ Result<void> check_output(const FrameOptions& frames, const std::string& output)
   if (name == kRecordSuffix || name.ends_with(kUnfinishedSuffix)) {
     return illegal(text("output '", output, "' is taken by the program itself; choose another name"));
   }
+  return {};
+}
+
+Result<void> check_output(const FrameOptions& frames, const std::string& output) {
+  if (auto r = check_suffix(output); !r) return r;
   const auto kind = output_kind("recording" + output);
   if (!kind) return kind.error();
   if (*kind == OutputKind::image) return {};  // shows the end, whatever the others show
@@ -49,12 +56,17 @@ Result<void> check_output(const FrameOptions& frames, const std::string& output)
 
 // Settings that no output makes use of are mistakes.
 Result<void> check_use(const Options& options) {
-  bool sequence = false;
+  bool sequence = !options.products.sparse.empty();
   bool video = false;
+  bool float_array = false;
+  bool tensors = false;
   for (const std::string& output : options.outputs) {
     const OutputKind kind = *output_kind("recording" + output);
+    const bool tensor = kind == OutputKind::hdf5 && !options.products.encoding.empty();
     sequence |= kind != OutputKind::image;
     video |= kind == OutputKind::video;
+    tensors |= tensor;
+    float_array |= is_array(kind) && !tensor;
   }
   if (options.frames.timed() && !sequence) {
     return illegal(
@@ -64,10 +76,40 @@ Result<void> check_use(const Options& options) {
   if (options.frames.video_fps && !video) {
     return illegal("video-fps is used by videos only; add output = \".mp4\", or leave it out");
   }
+  if (options.products.floats && !float_array) {
+    return illegal("pixels = \"float\" is used by arrays only; add output = \".npy\", or leave it out");
+  }
+  if (!options.products.encoding.empty() && !tensors) {
+    return illegal("encoding makes tensors, which go into an .h5; add output = \".h5\", or leave it out");
+  }
+  return {};
+}
+
+Result<void> check_products(const Options& options) {
+  const ProductOptions& products = options.products;
+  if (!products.encoding.empty()) {
+    if (const auto encoding = parse_encoding(products.encoding); !encoding) return encoding.error();
+  }
+  if (!products.sparse.empty()) {
+    if (auto r = check_suffix(products.sparse); !r) return r;
+    if (auto r = check_event_list("recording" + products.sparse); !r) return r;
+  }
+  if (products.special() && options.stream.representation == "aae") {
+    return illegal(
+        "pixels, encoding and sparse would ask aae several times for a frame, which changes its state each "
+        "time; use another representation, or pictures alone");
+  }
   return {};
 }
 
 }  // namespace
+
+std::vector<std::string> suffixes_of(const Settings& settings) {
+  std::vector<std::string> suffixes = settings.at("output");
+  const auto sparse = settings.find("sparse");
+  if (sparse != settings.end()) suffixes.insert(suffixes.end(), sparse->second.begin(), sparse->second.end());
+  return suffixes;
+}
 
 void lay_over(Settings& settings, const Settings& more) {
   const auto is_instant = [&](std::string_view name) { return more.contains(std::string(name)); };
@@ -88,6 +130,7 @@ Result<std::unique_ptr<Options>> parse_settings(const Settings& settings) {
   add_read_options(app, options->stream.read);
   add_representation_options(app, options->stream);
   add_frame_options(app, options->frames, "");
+  add_product_options(app, options->products, "");
   app.add_option("--output", options->outputs);
   app.add_flag("--skip", options->skip);
 
@@ -107,6 +150,7 @@ Result<std::unique_ptr<Options>> parse_settings(const Settings& settings) {
   for (const std::string& output : options->outputs) {
     if (auto r = check_output(options->frames, output); !r) return r.error();
   }
+  if (auto r = check_products(*options); !r) return r.error();
   if (auto r = check_use(*options); !r) return r.error();
   return options;
 }

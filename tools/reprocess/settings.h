@@ -9,6 +9,7 @@
 
 #include "tools/frame_options.h"
 #include "tools/options.h"
+#include "tools/product_options.h"
 
 namespace scarf::tools::reprocess {
 
@@ -22,10 +23,14 @@ void lay_over(Settings& settings, const Settings& more);
 struct Options {
   StreamOptions stream;
   FrameOptions frames;
+  ProductOptions products;           ///< `sparse` is added to the name of the recording, too
   std::vector<std::string> outputs;  ///< what is added to the name of the recording: ".png", ".frames/"
   bool skip = false;                 ///< the recording is left out
   CLI::App app;                      ///< `stream` points into it
 };
+
+/// What is added to the name of the recording by all that is written but the record.
+std::vector<std::string> suffixes_of(const Settings& settings);
 
 /// Errors: illegal_parameter, naming the setting.
 Result<std::unique_ptr<Options>> parse_settings(const Settings& settings);

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "core/text.h"
+#include "scarf/encoding.h"
+#include "tools/event_list_writer.h"
 #include "tools/pictures.h"
 #include "tools/reprocess/input_digest.h"
 #include "tools/reprocess/record.h"
@@ -68,7 +70,7 @@ OutputKind kind_of(const std::string& suffix) {
 std::vector<std::string> files_of(const std::vector<std::string>& outputs) {
   std::vector<std::string> files = outputs;
   for (const std::string& suffix : outputs) {
-    if (kind_of(suffix) == OutputKind::npy) {
+    if (suffix.ends_with(".npy")) {
       files.push_back(
           std::filesystem::path("recording" + suffix).replace_extension(".csv").string().substr(9));
     }
@@ -76,15 +78,43 @@ std::vector<std::string> files_of(const std::vector<std::string>& outputs) {
   return files;
 }
 
-Result<std::unique_ptr<FrameWriter>> sequence_writers(const Options& options, const ResultPlace& place) {
-  std::vector<std::unique_ptr<FrameWriter>> writers;
+using Products = std::vector<std::unique_ptr<FrameProduct>>;
+
+// What is written of each frame. Outputs that show the same share a product.
+Result<Products> make_products(const Options& options, const ResultPlace& place,
+                               const std::vector<Shown>& shown) {
+  Representation& representation = *shown.front().representation;
+  Products products;
+  std::vector<std::unique_ptr<FrameWriter>> pictures;
+  std::vector<std::unique_ptr<FrameWriter>> float_pictures;
   for (const std::string& suffix : options.outputs) {
-    if (kind_of(suffix) == OutputKind::image) continue;
-    auto writer = make_frame_writer(place.working(suffix), kind_of(suffix), options.frames.shown_fps());
+    const OutputKind kind = kind_of(suffix);
+    if (kind == OutputKind::image) continue;
+    if (kind == OutputKind::hdf5 && !options.products.encoding.empty()) {
+      const auto encoding = parse_encoding(options.products.encoding);
+      if (!encoding) return encoding.error();
+      auto tensors = tensor_product(representation, *encoding, place.working(suffix));
+      if (!tensors) return tensors.error();
+      products.push_back(*std::move(tensors));
+      continue;
+    }
+    auto writer = make_frame_writer(place.working(suffix), kind, options.frames.shown_fps());
     if (!writer) return writer.error();
-    writers.push_back(std::make_unique<WriteBehind>(*std::move(writer)));
+    auto& group = options.products.floats && is_array(kind) ? float_pictures : pictures;
+    group.push_back(std::make_unique<WriteBehind>(*std::move(writer)));
   }
-  return std::unique_ptr<FrameWriter>(std::make_unique<Several>(std::move(writers)));
+  if (!pictures.empty()) {
+    products.push_back(picture_product(shown, std::make_unique<Several>(std::move(pictures))));
+  }
+  if (!float_pictures.empty()) {
+    products.push_back(float_product(representation, std::make_unique<Several>(std::move(float_pictures))));
+  }
+  if (!options.products.sparse.empty()) {
+    auto writer = make_event_list_writer(place.working(options.products.sparse), representation.sensor());
+    if (!writer) return writer.error();
+    products.push_back(event_product(representation, *std::move(writer)));
+  }
+  return products;
 }
 
 Result<void> write_final_pictures(const Options& options, const ResultPlace& place,
@@ -175,24 +205,23 @@ Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter
   }
   auto place = ResultPlace::claim(workplace.out, job.relative);
   if (!place) return place.error();
-  const auto writer = sequence_writers(**options, *place);
-  if (!writer) return writer.error();
   std::future<Result<std::string>> digest =
       std::async(std::launch::async, [&job] { return input_digest(job.path); });
-  const auto computed =
-      compute(*std::move(recording), job.path, **options, workplace.machine, writer->get(), meter);
+  const auto computed = compute(
+      *std::move(recording), job.path, **options, workplace.machine,
+      [&](const std::vector<Shown>& shown) { return make_products(**options, *place, shown); }, meter);
   const auto input_sha256 = digest.get();
   if (!computed) return computed.error();
   if (!input_sha256) return input_sha256.error();
   if (auto r = write_final_pictures(**options, *place, *computed); !r) return r.error();
 
-  const Record record{*input_sha256,     job.bytes,           job.settings,
-                      computed->digests, (*options)->outputs, computed->report.events,
-                      computed->frames};
+  const std::vector<std::string> outputs = suffixes_of(job.settings);
+  const Record record{*input_sha256,           job.bytes,       job.settings, computed->digests, outputs,
+                      computed->report.events, computed->frames};
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const std::string content =
       record_text(record, job, *computed, workplace.machine.name(), {started, seconds()});
-  if (auto r = place->complete(files_of((*options)->outputs), content); !r) return r.error();
+  if (auto r = place->complete(files_of(outputs), content); !r) return r.error();
   Outcome done = outcome_of(job, Status::done);
   done.events = computed->report.events;
   done.frames = computed->frames;
@@ -220,7 +249,7 @@ Result<Outcome> check(const Job& job, const Workplace& workplace, Meter& meter) 
   auto recording = open_recording((*options)->stream);
   if (!recording) return recording.error();
   const Machine reference{nullptr, workplace.machine.batches};
-  const auto computed = compute(*std::move(recording), job.path, **options, reference, nullptr, meter);
+  const auto computed = compute(*std::move(recording), job.path, **options, reference, {}, meter);
   if (!computed) return computed.error();
   const std::string different = differences(record->digests, computed->digests);
   Outcome outcome = outcome_of(job, different.empty() ? Status::identical : Status::differs);

@@ -81,6 +81,10 @@ class Reader final : public BlockSource {
  protected:
   Result<bool> next(std::vector<Event>& block) override {
     if (at_ == t_.size() && !load()) return false;
+    if (t_.empty()) {
+      block.swap(table_.events());
+      return true;
+    }
     // What no Event can hold is counted in its turn, between the events before and behind it.
     for (; at_ < t_.size() && !tally_.failure(); ++at_) {
       if (!legal_time(t_[at_])) {
@@ -129,7 +133,10 @@ class Reader final : public BlockSource {
       }
       if (!broken) {
         holes_ = 0;
-        keep(count);
+        has_whole_events() ? t_.clear() : convert(count);
+        block_row_ = row_;
+        row_ += count;
+        at_ = 0;
         return true;
       }
       if (!piecewise) {
@@ -148,7 +155,13 @@ class Reader final : public BlockSource {
     return false;
   }
 
-  void keep(size_t count) {
+  // Whether the rows read are events already, and all of them events that scarf holds.
+  bool has_whole_events() {
+    return table_.by_chunk() && std::all_of(table_.events().begin(), table_.events().end(),
+                                            [](const Event& e) { return legal_time(e.t); });
+  }
+
+  void convert(size_t count) {
     for (auto* const field : {&x_, &y_, &t_, &p_}) field->resize(count);
     const auto whole = [](auto v) { return as_integer(v); };
     table_.numbers(EventTable::x).transform(x_, whole);
@@ -158,9 +171,6 @@ class Reader final : public BlockSource {
       return __builtin_add_overflow(t, t_offset_, &t) ? kNoInteger : t;
     });
     table_.numbers(EventTable::p).transform(p_, [](auto v) { return v > 0 ? 1 : 0; });
-    block_row_ = row_;
-    row_ += count;
-    at_ = 0;
   }
 
   Handle file_;
@@ -174,13 +184,13 @@ class Reader final : public BlockSource {
   uint64_t holes_ = 0;
   uint64_t block_row_ = 0;  // the first of those below
   size_t at_ = 0;
-  std::vector<int64_t> x_, y_, t_, p_;
+  std::vector<int64_t> x_, y_, t_, p_;  // none if the rows read are whole events
 };
 
 Error has_no_events(Family family) {
   if (family != Family::other)
     return {ErrorCode::bad_input, text("has no events as ", name_of(family), " has them")};
-  return {ErrorCode::bad_input,
+  return {ErrorCode::unrecognised,
           "this HDF5 file has no events where scarf looks for them; docs/FORMATS.md says where that is"};
 }
 
@@ -191,20 +201,20 @@ bool recognise(const std::string& path, Family family) {
   return file && find_layout(*file, family) != nullptr;
 }
 
-namespace {
-
-Result<std::unique_ptr<EventSource>> open(Handle file, const std::string& name, uint64_t bytes,
-                                          const ReadOptions& options, Family family) {
-  const Layout* const layout = find_layout(file, family);
+Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& options, Family family) {
+  if (auto r = require_path(input, "HDF5"); !r) return r.error();
+  auto file = open_file(input.path);
+  if (!file) return file.error();
+  const Layout* const layout = find_layout(*file, family);
   if (layout == nullptr) return has_no_events(family);
-  const auto place = place_of(file, *layout, options.stream);
+  const auto place = place_of(*file, *layout, options.stream);
   if (!place) return place.error();
-  auto table = EventTable::open(file, *layout, *place, options.columns);
+  auto table = EventTable::open(*file, *layout, *place, options.columns);
   if (!table) return table.error();
   const auto unit = time_unit(options.time_unit, *layout, table->time_type());
   if (!unit) return unit.error();
   std::optional<SensorSize> size;
-  if (layout->sensor != nullptr) size = layout->sensor(file, *place);
+  if (layout->sensor != nullptr) size = layout->sensor(*file, *place);
   if (size) {
     const auto legal = checked_sensor(size->width, size->height, "the HDF5 file");
     if (!legal) return legal.error();
@@ -212,29 +222,14 @@ Result<std::unique_ptr<EventSource>> open(Handle file, const std::string& name, 
   const auto sensor = agreed_sensor(size, options.sensor);
   if (!sensor) return sensor.error();
   int64_t t_offset = 0;
-  if (family == Family::dsec && Dataset::exists(file, "t_offset")) {
-    const auto value = short_dataset(file, "t_offset");
+  if (family == Family::dsec && Dataset::exists(*file, "t_offset")) {
+    const auto value = short_dataset(*file, "t_offset");
     if (!value) return Error{ErrorCode::bad_input, "t_offset is no integer"};
     t_offset = value->front();
   }
-  return std::unique_ptr<EventSource>(std::make_unique<Reader>(
-      std::move(file), *std::move(table), *unit, t_offset, name_of(family), bytes, name, *sensor, options));
-}
-
-}  // namespace
-
-Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& options, Family family) {
-  if (auto r = require_path(input, "HDF5"); !r) return r.error();
-  auto file = open_file(input.path);
-  if (!file) return file.error();
-  return open(*std::move(file), input.name, input.bytes.total(), options, family);
-}
-
-Result<std::unique_ptr<EventSource>> open_image(std::span<const uint8_t> bytes, const ReadOptions& options,
-                                                Family family) {
-  auto file = open_bytes(bytes);
-  if (!file) return file.error();
-  return open(*std::move(file), "memory", bytes.size(), options, family);
+  return std::unique_ptr<EventSource>(std::make_unique<Reader>(*std::move(file), *std::move(table), *unit,
+                                                               t_offset, name_of(family), input.bytes.total(),
+                                                               std::move(input.name), *sensor, options));
 }
 
 }  // namespace scarf::hdf5

@@ -138,8 +138,8 @@ uint64_t EventTable::chunk_end(uint64_t row) const {
 
 std::optional<BrokenRows> EventTable::read(uint64_t first, size_t count) {
   for (Part& part : parts_) {
-    part.rows.resize(count * part.row_bytes);
     const Dataset& dataset = part.dataset;
+    if (!dataset.ecf()) part.rows.resize(count * part.row_bytes);
     const auto done = dataset.ecf() ? read_ecf(part, first, count)
                                     : dataset.read(first, count, part.type, part.rows.data());
     if (done) continue;
@@ -152,14 +152,14 @@ std::optional<BrokenRows> EventTable::read(uint64_t first, size_t count) {
 }
 
 // `first` begins a chunk, and the rows lie in it.
-Result<void> EventTable::read_ecf(Part& part, uint64_t first, size_t count) {
+Result<void> EventTable::read_ecf(const Part& part, uint64_t first, size_t count) {
   bool filtered = false;
   if (auto r = part.dataset.read_chunk(first, chunk_, filtered); !r) return r;
   if (!filtered) return bad("the chunk was stored without ECF");
   if (auto r = decode_ecf(chunk_, events_); !r) return r;
   // A chunk at the end may hold more than the dataset has.
   if (events_.size() < count) return bad(text("the chunk holds ", events_.size(), " events only"));
-  std::memcpy(part.rows.data(), events_.data(), part.rows.size());
+  events_.resize(count);
   return {};
 }
 
@@ -171,7 +171,9 @@ bool EventTable::written(uint64_t first, uint64_t count) const {
 Numbers EventTable::numbers(Field field) const {
   const Place& place = fields_[field];
   const Part& part = parts_[place.part];
-  return {part.rows.data() + place.offset, part.row_bytes, place.type};
+  const uint8_t* const rows =
+      by_chunk() ? reinterpret_cast<const uint8_t*>(events_.data()) : part.rows.data();
+  return {rows + place.offset, part.row_bytes, place.type};
 }
 
 }  // namespace scarf::hdf5

@@ -49,6 +49,8 @@ class EventTable {
 
   /// A field of the rows read.
   Numbers numbers(Field field) const;
+  /// The rows read, of a file that is read by chunk: it has whole events.
+  std::vector<Event>& events() { return events_; }
 
  private:
   struct Part {
@@ -69,7 +71,7 @@ class EventTable {
                           const std::string& columns);
   Result<void> open_records(const Handle& file, const Layout& layout, const std::string& place);
   void compare_rows();
-  Result<void> read_ecf(Part& part, uint64_t first, size_t count);
+  Result<void> read_ecf(const Part& part, uint64_t first, size_t count);
 
   std::vector<Part> parts_;
   std::array<Place, 4> fields_;

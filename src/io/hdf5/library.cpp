@@ -34,19 +34,6 @@ Result<Handle> open_file(const std::string& path) {
   return file;
 }
 
-Result<Handle> open_bytes(std::span<const uint8_t> bytes) {
-  const Turn turn;
-  register_lzf();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
-  constexpr size_t kIncrement = 64 * 1024;
-  H5Pset_fapl_core(access.id(), kIncrement, /*backing_store=*/0);
-  // libhdf5 copies the bytes, but its interface is not const.
-  H5Pset_file_image(access.id(), const_cast<uint8_t*>(bytes.data()), bytes.size());
-  Handle file(H5Fopen("memory", H5F_ACC_RDONLY, access.id()));
-  if (!file) return error_of(ErrorCode::bad_input, "cannot be opened as HDF5");
-  return file;
-}
-
 Result<Handle> create_file(const std::string& path) {
   const Turn turn;
   Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));

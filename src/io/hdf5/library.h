@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <mutex>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -65,8 +64,6 @@ Error error_of(ErrorCode code, const std::string& what);
 
 /// Opens a file for reading. Errors: bad_input.
 Result<Handle> open_file(const std::string& path);
-/// Opens a copy of the bytes of a file. Errors: bad_input.
-Result<Handle> open_bytes(std::span<const uint8_t> bytes);
 /// Creates or replaces a file that every libhdf5 since 1.8 reads. Errors: io.
 Result<Handle> create_file(const std::string& path);
 /// Writes out and closes a file whose datasets are closed. Errors: io, also for a disk that is full.

@@ -16,9 +16,6 @@ bool recognise(const std::string& path, Family family);
 
 /// Errors: bad_input, illegal_parameter.
 Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& options, Family family);
-/// The same of a copy of the bytes of a file.
-Result<std::unique_ptr<EventSource>> open_image(std::span<const uint8_t> bytes, const ReadOptions& options,
-                                                Family family);
 /// The greyscale frames of an MVSEC file.
 Result<std::unique_ptr<FrameSource>> open_mvsec_frames(Input input, const ReadOptions& options);
 

@@ -178,6 +178,9 @@ TEST_F(Hdf5, RefusesWhatItMustNotRead) {
   EXPECT_THAT(read("zstd").error, AllOf(HasSubstr("Zstandard"), HasSubstr("32015"), HasSubstr("events/x")));
   const std::string error = read("no-events").error;
   EXPECT_THAT(error, AllOf(HasSubstr("no-events.h5"), HasSubstr("no events"), Not(HasSubstr("\n"))));
+  EXPECT_EQ(open_events(path("no-events.h5")).error().code, ErrorCode::unrecognised);
+  EXPECT_EQ(open_events(path("no-events.h5"), {.sensor = {}, .format = "dsec"}).error().code,
+            ErrorCode::bad_input);
   EXPECT_THAT(read("rvt", {.sensor = {}, .format = "mvsec"}).error, HasSubstr("mvsec"));
   EXPECT_THAT(read("rvt", {SensorSize{640, 480}}).error, AllOf(HasSubstr("1280x720"), HasSubstr("640x480")));
 }

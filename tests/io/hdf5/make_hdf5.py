@@ -234,7 +234,8 @@ def write(layout, e, f):
             f.create_dataset(f"events/{name}", shape=(10**17,), dtype="<u4", chunks=(1024,))
             f[f"events/{name}"][20480:21504] = 7
     elif layout == "huge-chunk":
-        columns(f, "events", e[:10], chunks=(2**27,), maxshape=(None,))
+        f.create_dataset("events/x", shape=(10,), maxshape=(None,), chunks=(2**25 + 1,), dtype="<u2")
+        columns(f, "events", e[:10], names=["x2", "y", "t", "p"])
     elif layout == "external":
         f.create_dataset("events/x", shape=(100,), dtype="u1", external=[("/etc/passwd", 0, 100)])
         columns(f, "events", e[:100], names=["y", "y2", "t", "p"])
