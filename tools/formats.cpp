@@ -16,7 +16,7 @@ Result<int> print_formats() {
                                         : "read")
               << " " << info.title;
     if (!info.missing.empty()) std::cout << " (needs " << info.missing << ")";
-    if (!info.recognised) std::cout << " (only with --format " << info.name << ")";
+    if (!info.recognised && info.missing.empty()) std::cout << " (only with --format " << info.name << ")";
     std::cout << "\n";
   }
   return 0;
