@@ -89,14 +89,15 @@ std::optional<int64_t> load_time(const NumpyType& type, int exponent, const uint
     return static_cast<int64_t>(t);
   }
   const auto value = load_integer(type, at);
-  if (!value) return std::nullopt;
+  if (!value || *value == std::numeric_limits<int64_t>::min()) return std::nullopt;  // NumPy: not a time
   int64_t t = 0;
   if (exponent >= 0) {
     if (std::abs(*value / 2) >= kMaxTime / power) return std::nullopt;
     t = *value * power;
   } else {
-    const int64_t rest = (*value % power + power) % power;
-    t = (*value - rest) / power + (rest >= power / 2 ? 1 : 0);
+    const int64_t below = *value % power < 0 ? 1 : 0;
+    const int64_t rest = *value % power + below * power;
+    t = *value / power - below + (rest >= power / 2 ? 1 : 0);
   }
   if (t <= -kMaxTime || t >= kMaxTime) return std::nullopt;
   return t;

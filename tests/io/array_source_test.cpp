@@ -75,12 +75,19 @@ TEST(NpyReader, FloatingPointTimesAreSeconds) {
 }
 
 TEST(NpyReader, TimesWithAUnitOfTheirOwn) {
-  Bytes records = numbers<int64_t>({258'499});
-  records.insert(records.end(), {1, 2, 1});
+  constexpr int64_t kNotATime = std::numeric_limits<int64_t>::min();
+  Bytes records;
+  for (const int64_t t : {int64_t{258'499}, int64_t{-258'501}, int64_t{-258'500}, kNotATime, kNotATime + 1}) {
+    const Bytes time = numbers<int64_t>({t});
+    records.insert(records.end(), time.begin(), time.end());
+    records.insert(records.end(), {1, 2, 1});
+  }
   const auto r =
-      read_all(npy_file("[('t', '<m8[ns]'), ('x', 'u1'), ('y', 'u1'), ('p', 'u1')]", "(1,)", records));
+      read_all(npy_file("[('t', '<m8[ns]'), ('x', 'u1'), ('y', 'u1'), ('p', 'u1')]", "(5,)", records));
   EXPECT_EQ(r.error, "");
-  EXPECT_THAT(r.events, ElementsAre(Event{258, 1, 2, 1}));
+  EXPECT_THAT(r.events, ElementsAre(Event{258, 1, 2, 1}, Event{-259, 1, 2, 1}, Event{-258, 1, 2, 1},
+                                    Event{-9'223'372'036'854'776, 1, 2, 1}));
+  EXPECT_EQ(r.report.unknown_words, 1u);
 }
 
 TEST(NpyReader, NumbersThatAreNoEventsAreCounted) {
