@@ -2,12 +2,25 @@
 #include "tools/bench.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "core/text.h"
 #include "tools/commands.h"
+#include "tools/files.h"
 #include "tools/options.h"
 
 namespace scarf::tools {
+
+Result<void> write_report(const BenchOptions& options, const DeviceInfo* device, nlohmann::json report) {
+  if (options.json.empty()) return {};
+  report["commit"] = SCARF_COMMIT;
+  if (device != nullptr) {
+    report["device"] = device->name;
+    report["driver"] = device->driver;
+  }
+  return write_file(options.json, report.dump(1) + "\n");
+}
+
 namespace {
 
 Result<int> bench(const BenchOptions& options) {

@@ -34,6 +34,10 @@ struct BenchOptions {
   DeviceOptions device;
 };
 
+/// Writes a benchmark's JSON to the file of --json, if there is one, with the commit and, unless it is null,
+/// the device.
+Result<void> write_report(const BenchOptions& options, const DeviceInfo* device, nlohmann::json report);
+
 void print_ceilings(const bench::Ceilings& ceilings);
 nlohmann::json as_json(const bench::Ceilings& ceilings);
 

@@ -10,7 +10,6 @@
 #include "bench/scenes.h"
 #include "core/text.h"
 #include "tools/bench.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -98,10 +97,7 @@ Result<int> bench_io(const BenchOptions& options) {
       fs::remove_all(path);
     }
   }
-  if (!options.json.empty()) {
-    const nlohmann::json report = {{"commit", SCARF_COMMIT}, {"results", results}};
-    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
-  }
+  if (auto r = write_report(options, nullptr, {{"results", results}}); !r) return r.error();
   return 0;
 }
 

@@ -4,7 +4,6 @@
 
 #include "bench/offload.h"
 #include "tools/bench.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -78,14 +77,8 @@ Result<int> bench_offload(const BenchOptions& options) {
     std::fflush(stdout);
     results.push_back(as_json(sensor, *offload));
   }
-  if (!options.json.empty()) {
-    const nlohmann::json report = {{"device", device.name},
-                                   {"driver", device.driver},
-                                   {"commit", SCARF_COMMIT},
-                                   {"ceilings", as_json(*ceilings)},
-                                   {"results", results}};
-    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
-  }
+  const nlohmann::json report = {{"ceilings", as_json(*ceilings)}, {"results", results}};
+  if (auto r = write_report(options, &device, report); !r) return r.error();
   return 0;
 }
 

@@ -7,7 +7,6 @@
 #include "bench/push.h"
 #include "bench/replay.h"
 #include "tools/bench.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -116,11 +115,7 @@ Result<int> bench_replay(const BenchOptions& options) {
     print(*row, options.stages);
     results.push_back(json_of(*row));
   }
-  if (!options.json.empty()) {
-    const nlohmann::json report = {
-        {"device", device.name}, {"driver", device.driver}, {"commit", SCARF_COMMIT}, {"results", results}};
-    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
-  }
+  if (auto r = write_report(options, &device, {{"results", results}}); !r) return r.error();
   return 0;
 }
 

@@ -9,7 +9,6 @@
 #include "scarf/reference.h"
 #include "tools/bench.h"
 #include "tools/bench_stages.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -174,12 +173,9 @@ Result<int> bench_scenes(const BenchOptions& options) {
       }
     }
   }
-  if (!options.json.empty()) {
-    nlohmann::json report = {
-        {"device", device.name}, {"driver", device.driver}, {"commit", SCARF_COMMIT}, {"results", results}};
-    if (ceilings) report["ceilings"] = as_json(*ceilings);
-    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
-  }
+  nlohmann::json report = {{"results", results}};
+  if (ceilings) report["ceilings"] = as_json(*ceilings);
+  if (auto r = write_report(options, &device, std::move(report)); !r) return r.error();
   return 0;
 }
 

@@ -5,7 +5,6 @@
 #include "bench/streams.h"
 #include "core/text.h"
 #include "tools/bench.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -93,11 +92,7 @@ Result<int> bench_streams(const BenchOptions& options) {
       }
     }
   }
-  if (!options.json.empty()) {
-    const nlohmann::json report = {
-        {"device", device.name}, {"driver", device.driver}, {"commit", SCARF_COMMIT}, {"results", results}};
-    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
-  }
+  if (auto r = write_report(options, &device, {{"results", results}}); !r) return r.error();
   return 0;
 }
 

@@ -6,7 +6,6 @@
 #include "bench/wire.h"
 #include "scarf/io.h"
 #include "tools/bench.h"
-#include "tools/files.h"
 
 namespace scarf::tools {
 namespace {
@@ -67,10 +66,7 @@ Result<int> bench_wire(const BenchOptions& options) {
     if (recorded->empty()) continue;
     results.push_back(measure(path.substr(path.find_last_of('/') + 1), *sensor, *recorded, repeats));
   }
-  if (!options.json.empty()) {
-    const nlohmann::json report = {{"commit", SCARF_COMMIT}, {"results", results}};
-    if (auto r = write_file(options.json, report.dump(1) + "\n"); !r) return r.error();
-  }
+  if (auto r = write_report(options, nullptr, {{"results", results}}); !r) return r.error();
   return 0;
 }
 

@@ -26,6 +26,14 @@ StreamFacts with(StreamFacts facts, const CheckedBatch& batch) {
 
 }  // namespace
 
+Result<std::unique_ptr<Query>> Query::create(vulkan::Device& device) {
+  auto commands = Commands::create(device, device.compute());
+  if (!commands) return commands.error();
+  auto query = std::make_unique<Query>();
+  query->commands = std::move(*commands);
+  return query;
+}
+
 uint64_t Query::memory_bytes() const {
   uint64_t bytes = target ? target->memory_bytes() : 0;
   for (const Buffer& b : results) bytes += b.size();
@@ -395,13 +403,7 @@ Result<std::unique_ptr<PushCommands>> Stream::take_commands() {
 }
 
 Result<std::unique_ptr<Query>> Stream::take_query(QueryKind kind) {
-  auto query = query_pools_[static_cast<size_t>(kind)].take([this]() -> Result<std::unique_ptr<Query>> {
-    auto commands = Commands::create(device_, device_.compute());
-    if (!commands) return commands.error();
-    auto made = std::make_unique<Query>();
-    made->commands = std::move(*commands);
-    return made;
-  });
+  auto query = query_pools_[static_cast<size_t>(kind)].take([this] { return Query::create(device_); });
   if (query) stage_times_.collect((*query)->commands);
   return query;
 }

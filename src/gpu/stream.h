@@ -36,6 +36,9 @@ struct Query {
   std::vector<vulkan::Buffer> results;  ///< copies of Answer::parts, for the host
   std::unique_ptr<QueryTarget> target;
 
+  /// Errors: out_of_memory.
+  static Result<std::unique_ptr<Query>> create(vulkan::Device& device);
+
   uint64_t memory_bytes() const;
   /// Copies the parts into results `first` and on, which grow as needed.
   Result<void> copy_back(vulkan::Device& device, std::span<const Part> parts, size_t first = 0);

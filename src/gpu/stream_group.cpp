@@ -140,13 +140,7 @@ Result<void> StreamGroup::submit_gathered(std::span<const Locked> members) {
 }
 
 Result<std::unique_ptr<Query>> StreamGroup::take_query() {
-  auto query = query_pool_.take([this]() -> Result<std::unique_ptr<Query>> {
-    auto commands = Commands::create(device_, device_.compute());
-    if (!commands) return commands.error();
-    auto made = std::make_unique<Query>();
-    made->commands = std::move(*commands);
-    return made;
-  });
+  auto query = query_pool_.take([this] { return Query::create(device_); });
   if (query) stage_times_.collect((*query)->commands);
   return query;
 }

@@ -23,10 +23,10 @@ class DeviceRepresentation final : public OnDevice<GpuRepresentation> {
   }
 
   Pending<Image<uint8_t>> u8_image(std::optional<int64_t> now) override {
+    const U8Picture picture = u8_picture();
     return stream_->query<Image<uint8_t>>(
-        QueryKind::image,
-        [&](Query& q, const StreamFacts& facts) { return pipeline_.record_u8(q.commands, facts, now); },
-        queries_change_state_);
+        QueryKind::image, [&](Query& q, const StreamFacts& facts) { return picture.record(q, facts, now); },
+        picture.changes_state);
   }
   Pending<Image<float>> float_image(std::optional<int64_t> now) override {
     return stream_->query<Image<float>>(

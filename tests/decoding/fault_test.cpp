@@ -7,7 +7,6 @@
 #include "tests/decoding/words.h"
 #include "tests/support/faults.h"
 #include "tests/support/same.h"
-#include "vulkan/device.h"
 
 namespace scarf {
 namespace {
@@ -31,16 +30,9 @@ Outcome decode_everything(DeviceOptions::Upload upload) {
     if (!result && !outcome.error) outcome.error = result.error();
     return result.ok();
   };
-  DeviceOptions options;
-  options.upload = upload;
-  options.cache_folder = "-";
-  auto device = vulkan::Device::create(options, test::install_faults);
-  if (!note(device)) return outcome;
-  Faults::stop_device = [handle = (*device)->handle()] {
-    test::Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);
-  };
-  auto context = std::make_shared<GpuContext>(std::move(*device));
-  auto sae = make_gpu_representation(context, SaeParameters{}, kSensor, {.submission_events = 200});
+  const auto context = test::faulty_context(upload);
+  if (!note(context)) return outcome;
+  auto sae = make_gpu_representation(*context, SaeParameters{}, kSensor, {.submission_events = 200});
   if (!note(sae)) return outcome;
   outcome.calls_before = Faults::calls;
   auto decoder = make_gpu_decoder(**sae, CameraWords::evt3);
@@ -88,9 +80,7 @@ TEST_P(DecodingFault, OfEachCallIsReportedAndLosesNothingSilently) {
     const Outcome outcome = decode_everything(upload);
     unreported += outcome.error ? 0 : 1;
     if (outcome.error) {
-      const ErrorCode wanted =
-          result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory;
-      EXPECT_EQ(outcome.error->code, wanted) << outcome.error->message;
+      EXPECT_EQ(outcome.error->code, test::reported_as(result)) << outcome.error->message;
     }
     // Whatever was handed out is whole.
     if (outcome.state) {

@@ -1,11 +1,10 @@
 // Bags, MCAP and AEDAT4 that a Python script writes from the formats' descriptions: what was written is read.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
 #include <array>
-#include <cstdlib>
 
 #include "io_test_helpers.h"
+#include "python_recordings.h"
 #include "scarf/frames.h"
 
 namespace scarf {
@@ -27,44 +26,24 @@ std::vector<Event> some_events() {
   return events;
 }
 
-class MadeBags : public ::testing::Test {
+class MadeBags : public PythonRecordings {
  protected:
-  MadeBags()
-      : folder_(std::filesystem::path(testing::TempDir()) / ("scarf_made_bags_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-    Bytes packed;
-    for (const Event& e : events) {
-      append_little_endian(packed, e.t);
-      append_little_endian(packed, e.x);
-      append_little_endian(packed, e.y);
-      packed.push_back(e.p);
-    }
-    std::ofstream(path("events"), std::ios::binary)
-        .write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size()));
-  }
-  ~MadeBags() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  MadeBags() { write_events(events); }
 
   /// Writes a recording of this kind. False: a library of ours or a Python module is missing.
   bool make(const std::string& kind, const std::string& format) const {
     for (const FormatInfo& info : formats()) {
       if (info.name == format && !info.missing.empty()) return false;
     }
-    const std::string command = std::string(SCARF_SYSTEM_PYTHON " " SCARF_MAKE_BAGS " ") + kind + " " +
-                                path("events") + " " + path(kind);
-    const int status = std::system(command.c_str());
-    const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    if (exit_code == 77) return false;
+    const int exit_code = python(SCARF_MAKE_BAGS, kind, path(kind));
+    if (exit_code == kModuleMissing) return false;
     EXPECT_EQ(exit_code, 0) << kind;
     return true;
   }
   static constexpr const char* kMissing = "python3-lz4, python3-zstandard or a library is not installed";
 
   Recording read(const std::string& kind, const ReadOptions& options = {}) const {
-    auto source = open_events(path(kind), options);
-    if (!source) return {"", std::nullopt, {}, {}, source.error().message};
-    return read_all(*std::move(source), 77);
+    return read_path(path(kind), options, 77);
   }
 
   void expect_written(const Recording& r, const std::string& format) const {
@@ -89,9 +68,6 @@ class MadeBags : public ::testing::Test {
   }
 
   const std::vector<Event> events = some_events();
-
- private:
-  std::filesystem::path folder_;
 };
 
 TEST_F(MadeBags, Ros1WithoutCompression) {

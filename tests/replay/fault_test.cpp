@@ -4,7 +4,6 @@
 #include "scarf/replay.h"
 #include "tests/support/faults.h"
 #include "tests/support/streams.h"
-#include "vulkan/device.h"
 
 namespace scarf {
 namespace {
@@ -24,20 +23,13 @@ Outcome use_everything(DeviceOptions::Upload upload) {
     if (!result && !outcome.error) outcome.error = result.error();
     return result.ok();
   };
-  DeviceOptions options;
-  options.upload = upload;
-  options.cache_folder = "-";
-  auto device = vulkan::Device::create(options, test::install_faults);
-  if (!note(device)) return outcome;
-  Faults::stop_device = [handle = (*device)->handle()] {
-    test::Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);
-  };
-  const auto context = std::make_shared<GpuContext>(std::move(*device));
+  const auto context = test::faulty_context(upload);
+  if (!note(context)) return outcome;
   const TakeReplayFrame<uint8_t> take = [&](const ReplayFrame<uint8_t>& frame) -> Result<void> {
     outcome.frames.emplace_back(frame.pixels.begin(), frame.pixels.end());
     return {};
   };
-  const auto replay = make_gpu_replay<uint8_t>(context, *make_geometry(Preset::paper, {40, 30}), take,
+  const auto replay = make_gpu_replay<uint8_t>(*context, *make_geometry(Preset::paper, {40, 30}), take,
                                                kDefaultAccumulation, {.group_frames = 1});
   if (note(replay)) {
     for (size_t i = 0; i < kEvents.size(); i += 100) {
@@ -77,9 +69,7 @@ TEST_P(ReplayFault, OfEachCallIsReportedAndLosesNothingSilently) {
       ASSERT_EQ(outcome.frames.size(), whole.frames.size());
       continue;
     }
-    EXPECT_EQ(outcome.error->code,
-              result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory)
-        << outcome.error->message;
+    EXPECT_EQ(outcome.error->code, test::reported_as(result)) << outcome.error->message;
   }
   // Only timestamps and the wait for idleness at the end may fail unnoticed.
   EXPECT_LE(unreported, calls / 10);

@@ -6,7 +6,6 @@
 #include "tests/support/faults.h"
 #include "tests/support/same.h"
 #include "tests/support/streams.h"
-#include "vulkan/device.h"
 
 namespace scarf {
 namespace {
@@ -31,18 +30,11 @@ Outcome use_everything(DeviceOptions::Upload upload) {
     if (!result && !outcome.error) outcome.error = result.error();
     return result.ok();
   };
-  DeviceOptions options;
-  options.upload = upload;
-  options.cache_folder = "-";
-  auto device = vulkan::Device::create(options, test::install_faults);
-  if (!note(device)) return outcome;
-  Faults::stop_device = [handle = (*device)->handle()] {
-    test::Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);
-  };
-  auto context = std::make_shared<GpuContext>(std::move(*device));
+  const auto context = test::faulty_context(upload);
+  if (!note(context)) return outcome;
   GpuOptions gpu;
   gpu.submission_events = 1000;
-  auto scarf = make_gpu_scarf(context, kGeometry, kDefaultAccumulation, gpu);
+  auto scarf = make_gpu_scarf(*context, kGeometry, kDefaultAccumulation, gpu);
   if (!note(scarf)) return outcome;
   note((*scarf)->push(kEvents));
   auto image = (*scarf)->u8_image().wait();
@@ -83,9 +75,7 @@ TEST_P(Fault, OfEachCallIsReportedAndLosesNothingSilently) {
     Faults::arm(n, result);
     const Outcome outcome = use_everything(upload);
     if (outcome.error) {
-      const ErrorCode wanted =
-          result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory;
-      EXPECT_EQ(outcome.error->code, wanted) << outcome.error->message;
+      EXPECT_EQ(outcome.error->code, test::reported_as(result)) << outcome.error->message;
       EXPECT_NE(outcome.error->message.find("vk"), std::string::npos) << outcome.error->message;
     } else {
       ++unreported;

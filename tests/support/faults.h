@@ -2,7 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <utility>
 
+#include "scarf/gpu.h"
+#include "vulkan/device.h"
 #include "vulkan/table.h"
 
 namespace scarf::test {
@@ -65,6 +69,24 @@ inline void install_faults(vulkan::Table& table) {
   SCARF_VK_INSTANCE_CALLS(SCARF_TEST_INSTALL)
   SCARF_VK_DEVICE_CALLS(SCARF_TEST_INSTALL)
 #undef SCARF_TEST_INSTALL
+}
+
+/// A context on a device whose calls can fail. Before it is destroyed, Faults::stop_device must be forgotten.
+inline Result<std::shared_ptr<GpuContext>> faulty_context(DeviceOptions::Upload upload) {
+  DeviceOptions options;
+  options.upload = upload;
+  options.cache_folder = "-";
+  auto device = vulkan::Device::create(options, install_faults);
+  if (!device) return device.error();
+  Faults::stop_device = [handle = (*device)->handle()] {
+    Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);
+  };
+  return std::make_shared<GpuContext>(std::move(*device));
+}
+
+/// What a call that failed like this is reported as.
+inline ErrorCode reported_as(VkResult result) {
+  return result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory;
 }
 
 }  // namespace scarf::test

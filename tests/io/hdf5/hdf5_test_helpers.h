@@ -2,16 +2,14 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "../io_test_helpers.h"
-#include "core/little_endian.h"
+#include "../python_recordings.h"
 #include "scarf/io.h"
 
 namespace scarf {
@@ -36,42 +34,23 @@ inline std::vector<Event> sample_events() {
   return events;
 }
 
-class Hdf5Test : public ::testing::Test {
+class Hdf5Test : public PythonRecordings {
  protected:
-  Hdf5Test()
-      : folder_(std::filesystem::path(testing::TempDir()) / ("scarf_hdf5_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~Hdf5Test() override { std::filesystem::remove_all(folder_); }
-
   void SetUp() override {
     events = sample_events();
-    std::vector<uint8_t> packed;
-    for (const Event& e : events) {
-      append_little_endian(packed, e.t);
-      append_little_endian(packed, e.x);
-      append_little_endian(packed, e.y);
-      packed.push_back(e.p);
-    }
-    std::ofstream(path("events"), std::ios::binary)
-        .write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size()));
+    write_events(events);
   }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  /// The exit status of make_hdf5.py; 77: h5py or a filter is missing.
+  /// The exit status of make_hdf5.py.
   int python(const std::string& what, const std::string& file) const {
-    const std::string command =
-        std::string(SCARF_SYSTEM_PYTHON " " SCARF_MAKE_HDF5 " ") + what + " " + path("events") + " " + file;
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return PythonRecordings::python(SCARF_MAKE_HDF5, what, file);
   }
 
   /// Writes a file in each of these layouts. False: h5py or a filter that they need is not installed.
   bool make(std::initializer_list<const char*> layouts) const {
     for (const std::string layout : layouts) {
       const int status = python(layout, path(layout + ".h5"));
-      if (status == 77) return false;
+      if (status == kModuleMissing) return false;
       EXPECT_EQ(status, 0) << layout;
     }
     return true;
@@ -80,15 +59,10 @@ class Hdf5Test : public ::testing::Test {
 
   /// What is read of a file that make() wrote.
   Recording read(const std::string& layout, const ReadOptions& options = {}) {
-    auto source = open_events(path(layout + ".h5"), options);
-    if (!source) return {"", std::nullopt, {}, {}, source.error().message};
-    return read_all(*std::move(source), 5000);
+    return read_path(path(layout + ".h5"), options, 5000);
   }
 
   std::vector<Event> events;
-
- private:
-  std::filesystem::path folder_;
 };
 
 }  // namespace scarf
