@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint64_t kWord = sizeof(uint32_t);
 constexpr uint64_t kSlot = sizeof(uint64_t);
-constexpr uint64_t kTotal = sizeof(uint64_t);
+constexpr uint64_t kHead = sizeof(uint32_t) + sizeof(uint64_t);  // and laps
 constexpr uint64_t kReadAndWritten = 2;
 
 StageWork work(std::string_view stage, uint64_t bytes, uint64_t atomics = 0) {
@@ -39,16 +39,20 @@ Hits count_hits(const Geometry& geometry, std::span<const Event> events) {
 }
 
 std::vector<StageWork> push_work(const Plan& plan, const Hits& hits) {
+  const uint64_t stored_bytes = kSlot + (plan.paints ? 1 : 0);
+  if (plan.appended(hits.events)) {
+    return {work("append", plan.append.workgroups() * uint64_t{hits.events} * sizeof(Event) +
+                               hits.patches * kWord * kReadAndWritten + hits.hits * stored_bytes)};
+  }
   const Chunking chunking = plan.cut(hits.events);
   const uint64_t events = uint64_t{hits.events} * sizeof(Event);
   const uint64_t counts = uint64_t{chunking.chunks} * plan.class_words();
   const uint64_t entries = uint64_t{chunking.chunks} * plan.patches;
-  const uint64_t stored_bytes = kSlot + (plan.paints ? 1 : 0);
   std::vector<StageWork> all = {
       work("clear", counts * kWord),
       work("count", events + std::min<uint64_t>(hits.events, counts) * kWord * kReadAndWritten, hits.events),
       work("sum", 2 * counts * kWord * kReadAndWritten),
-      work("scan", counts * kWord + 3 * entries * kWord + plan.patches * (kWord + kTotal) * kReadAndWritten +
+      work("scan", counts * kWord + 3 * entries * kWord + plan.patches * kHead * kReadAndWritten +
                        hits.patches * kWord),
   };
   if (chunking.prune) all.push_back(work("prune", 2 * entries * kWord));
@@ -65,10 +69,10 @@ std::vector<StageWork> image_work(const Geometry& geometry, const Plan& plan, co
   if (plan.paints) {
     const uint64_t positions = uint64_t{plan.position_groups} * layout::kSlotsPerGroup;
     const uint64_t cell = uint64_t{static_cast<uint32_t>(geometry.x.cell)} * geometry.y.cell;
-    return {work("paint", plan.patches * kWord + hits.patches * (kWord + positions + cell)), copy};
+    return {work("paint", 2 * plan.patches * kWord + hits.patches * (kWord + positions + cell)), copy};
   }
   const uint64_t slots = uint64_t{plan.patches} * plan.capacity;
-  return {work("render", pixels * kWord + slots * kSlot + plan.patches * kTotal +
+  return {work("render", pixels * kWord + slots * kSlot + plan.patches * kHead +
                              std::min(slots, pixels) * kWord * kReadAndWritten),
           work("tone", pixels * (kWord + 1)), copy};
 }

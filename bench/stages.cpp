@@ -67,7 +67,7 @@ Result<std::vector<StageFigure>> measure_stages(GpuScarf& scarf, const Plan& pla
   const Geometry& geometry = scarf.geometry();
   WorkByStage sums;
   // A batch may become two submissions, where staging memory ends.
-  for_each_part(geometry, events, dispatches_of(times, "count"),
+  for_each_part(geometry, events, dispatches_of(times, "count") + dispatches_of(times, "append"),
                 [&](const Hits& hits) { add(sums, push_work(plan, hits)); });
   for_each_part(geometry, events, dispatches_of(times, "copy"),
                 [&](const Hits& hits) { add(sums, image_work(geometry, plan, hits)); });

@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Sorted { uvec4 sorted[]; };
 layout(std430, binding = 1) readonly buffer Length { uint log_length; };
 layout(std430, binding = 2) writeonly buffer Ranges { uint ranges[]; };  // per block: begin, end
-layout(push_constant) uniform Push { AaePush push; };
+layout(push_constant) uniform Push { AaePush pushed; };
+AaePush push = pushed;
 #include "aae_block.glsl"
 
 void main() {

@@ -2,7 +2,8 @@
 layout(std430, binding = 0) readonly buffer From { uvec4 from[]; };  // t low, t high, x | y << 16, p
 layout(std430, binding = 1) readonly buffer Length { uint log_length; };
 layout(std430, binding = 2) buffer TableBuffer { uint table[]; };    // per digit and chunk
-layout(push_constant) uniform Push { BlockSortPush push; };
+layout(push_constant) uniform Push { BlockSortPush pushed; };
+BlockSortPush push = pushed;
 #include "aae_block.glsl"
 
 // The entry that only the invocation of this chunk reads and writes.

@@ -14,7 +14,8 @@ struct Walk {
 
 layout(std430, binding = 0) readonly buffer Sorted { uvec4 sorted[]; };
 layout(std430, binding = 1) buffer Walks { Walk walks[]; };
-layout(push_constant) uniform Push { AaePush push; };
+layout(push_constant) uniform Push { AaePush pushed; };
+AaePush push = pushed;
 
 int64_t time_of(uint i) { return packInt2x32(ivec2(sorted[i].xy)); }
 

@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) buffer StateBuffer { AedState state; };
 layout(std430, binding = 1) writeonly buffer LastTimes { int64_t last_times[]; };
-layout(push_constant) uniform Push { AedPush push; };
+layout(push_constant) uniform Push { AedPush pushed; };
+AedPush push = pushed;
 
 void main() {
   const uint index = linear_index();

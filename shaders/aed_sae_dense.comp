@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Plane { dvec2 plane[]; };
 layout(std430, binding = 1) buffer Counts { uint listed, dense; };
-layout(push_constant) uniform Push { AedImagePush push; };
+layout(push_constant) uniform Push { AedImagePush pushed; };
+AedImagePush push = pushed;
 
 void main() {
   const uint begin = linear_index() * kAedPixels;

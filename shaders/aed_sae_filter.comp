@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) buffer Plane { dvec2 plane[]; };
 layout(std430, binding = 1) readonly buffer Gaussians { double gaussians[]; };  // by column, then by row
-layout(push_constant) uniform Push { AedImagePush push; };
+layout(push_constant) uniform Push { AedImagePush pushed; };
+AedImagePush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

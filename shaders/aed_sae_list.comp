@@ -12,7 +12,8 @@ layout(std430, binding = 1) readonly buffer Length { uint log_length; };
 layout(std430, binding = 2) readonly buffer StateBuffer { AedState state; };
 layout(std430, binding = 3) buffer Marks { uint marks[]; };
 layout(std430, binding = 4) buffer Counts { uint listed; };
-layout(push_constant) uniform Push { AedImagePush push; };
+layout(push_constant) uniform Push { AedImagePush pushed; };
+AedImagePush push = pushed;
 
 void main() {
   const uint begin = linear_index() * kAedRun;

@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Marks { uint marks[]; };
 layout(std430, binding = 1) writeonly buffer Plane { dvec2 plane[]; };
-layout(push_constant) uniform Push { AedImagePush push; };
+layout(push_constant) uniform Push { AedImagePush pushed; };
+AedImagePush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

@@ -4,7 +4,8 @@ layout(std430, binding = 0) readonly buffer Events { uvec4 events[]; };  // t lo
 layout(std430, binding = 1) readonly buffer Length { uint log_length; };
 layout(std430, binding = 2) readonly buffer Places { uint places[]; };   // [1]: the length before the submission
 layout(std430, binding = 3) buffer StateBuffer { AedState state; };
-layout(push_constant) uniform Push { AedPush push; };
+layout(push_constant) uniform Push { AedPush pushed; };
+AedPush push = pushed;
 
 int64_t time_of(uint i) { return packInt2x32(ivec2(events[i].xy)); }
 uint old_length() { return places[1]; }

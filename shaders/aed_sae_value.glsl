@@ -4,7 +4,8 @@ layout(std430, binding = 0) readonly buffer StateBuffer { AedState state; };
 layout(std430, binding = 1) readonly buffer LastTimes { int64_t last_times[]; };
 layout(std430, binding = 2) readonly buffer Counts { uint listed, dense; };  // events in the list; pixels above the threshold
 layout(std430, binding = 3) writeonly buffer Picture { uint picture[]; };
-layout(push_constant) uniform Push { AedImagePush push; };
+layout(push_constant) uniform Push { AedImagePush pushed; };
+AedImagePush push = pushed;
 
 // exp(-y) for y >= 0, to some units in the last place: shaders have no exp in double precision.
 double exp_minus(double y) {

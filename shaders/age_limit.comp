@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Ages { uint ages[]; };
 layout(std430, binding = 1) writeonly buffer Limited { uint limited[]; };
-layout(push_constant) uniform Push { AgeLimitPush push; };
+layout(push_constant) uniform Push { AgeLimitPush pushed; };
+AgeLimitPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 1) readonly buffer LastEvent { uint last_event[]; };
 layout(std430, binding = 2) writeonly buffer Ages { uint ages[]; };
-layout(push_constant) uniform Push { SurfacePush push; };
+layout(push_constant) uniform Push { SurfacePush pushed; };
+SurfacePush push = pushed;
 
 void main() {
   const uint e = linear_index();

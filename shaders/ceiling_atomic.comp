@@ -7,7 +7,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
 layout(std430, binding = 0) buffer Table { uint table[]; };
-layout(push_constant) uniform Push { CeilingPush push; };
+layout(push_constant) uniform Push { CeilingPush pushed; };
+CeilingPush push = pushed;
 
 void main() {
   const uint i = linear_index();

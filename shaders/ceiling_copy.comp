@@ -7,7 +7,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer From { uvec4 from[]; };
 layout(std430, binding = 1) writeonly buffer To { uvec4 to[]; };
-layout(push_constant) uniform Push { CeilingPush push; };
+layout(push_constant) uniform Push { CeilingPush pushed; };
+CeilingPush push = pushed;
 
 void main() {
   const uint i = linear_index();

@@ -6,7 +6,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
 layout(std430, binding = 0) writeonly buffer Stamps { uint stamps[]; };
-layout(push_constant) uniform Push { ChainPush push; };
+layout(push_constant) uniform Push { ChainPush pushed; };
+ChainPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

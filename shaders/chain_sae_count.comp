@@ -7,7 +7,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Marks { uint marks[]; };
 layout(std430, binding = 1) writeonly buffer Counts { uint counts[]; };
-layout(push_constant) uniform Push { ChainPush push; };
+layout(push_constant) uniform Push { ChainPush pushed; };
+ChainPush push = pushed;
 
 void main() {
   const uint word = linear_index();

@@ -7,7 +7,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Stamps { uint stamps[]; };
 layout(std430, binding = 1) buffer Marks { uint marks[]; };  // zeros before
-layout(push_constant) uniform Push { ChainPush push; };
+layout(push_constant) uniform Push { ChainPush pushed; };
+ChainPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

@@ -9,7 +9,8 @@ layout(std430, binding = 0) readonly buffer Stamps { uint stamps[]; };
 layout(std430, binding = 1) readonly buffer Marks { uint marks[]; };
 layout(std430, binding = 2) readonly buffer Counts { uint counts[]; };  // stamps in the words before; in the end, all
 layout(std430, binding = 3) writeonly buffer Ranks { uint ranks[]; };   // 0: newest; push.pixels: never fired
-layout(push_constant) uniform Push { ChainPush push; };
+layout(push_constant) uniform Push { ChainPush pushed; };
+ChainPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

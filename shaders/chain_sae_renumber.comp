@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Ranks { uint ranks[]; };
 layout(std430, binding = 1) readonly buffer Counts { uint counts[]; };  // in the end, the number of all stamps
 layout(std430, binding = 2) writeonly buffer Stamps { uint stamps[]; };
-layout(push_constant) uniform Push { ChainPush push; };
+layout(push_constant) uniform Push { ChainPush pushed; };
+ChainPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

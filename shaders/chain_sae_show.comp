@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Ranks { int ranks[]; };  // every pixel has one
 layout(std430, binding = 1) buffer Cells { int cells[]; };
-layout(push_constant) uniform Push { ChainPush push; };
+layout(push_constant) uniform Push { ChainPush pushed; };
+ChainPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

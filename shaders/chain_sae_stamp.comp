@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 1) buffer Stamps { uint stamps[]; };  // of each pixel's last event, from 1 on; 0: none
 layout(std430, binding = 2) buffer Cells { int cells[]; };     // ranks shown, valid if push.cells
-layout(push_constant) uniform Push { ChainStampPush push; };
+layout(push_constant) uniform Push { ChainStampPush pushed; };
+ChainStampPush push = pushed;
 
 void main() {
   const uint e = linear_index();

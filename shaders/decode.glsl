@@ -6,7 +6,8 @@
 layout(constant_id = 0) const uint kFormat = kDecodeEvt2;
 
 layout(std430, binding = 0) readonly buffer Words { uint words[]; };
-layout(push_constant) uniform Push { DecodePush push; };
+layout(push_constant) uniform Push { DecodePush pushed; };
+DecodePush push = pushed;
 
 uint word_at(uint i) {
   return kFormat == kDecodeEvt2 ? words[i] : words[i >> 1] >> (i & 1) * 16 & 0xFFFF;

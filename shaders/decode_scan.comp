@@ -5,7 +5,8 @@
 #include "decode_layout.h"
 layout(local_size_x = kDecodeGroup) in;
 layout(constant_id = 0) const uint kFormat = kDecodeEvt2;
-layout(push_constant) uniform Push { DecodePush push; };
+layout(push_constant) uniform Push { DecodePush pushed; };
+DecodePush push = pushed;
 #include "decode_summary.glsl"
 #define JOINED DecodeSummary
 #define NOTHING no_words()

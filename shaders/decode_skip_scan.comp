@@ -4,7 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "decode_layout.h"
 layout(local_size_x = kDecodeGroup) in;
-layout(push_constant) uniform Push { DecodePush push; };
+layout(push_constant) uniform Push { DecodePush pushed; };
+DecodePush push = pushed;
 #include "decode_skip.glsl"
 #define JOINED uint
 #define NOTHING kDecodeSkipSame

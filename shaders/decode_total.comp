@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "decode_layout.h"
 layout(local_size_x = kDecodeGroup) in;
-layout(push_constant) uniform Push { DecodePush push; };
+layout(push_constant) uniform Push { DecodePush pushed; };
+DecodePush push = pushed;
 #include "decode_facts.glsl"
 #define JOINED DecodeFacts
 #define NOTHING no_events()

@@ -6,7 +6,8 @@
 layout(std430, binding = 0) readonly buffer First { uvec4 first_part[]; };    // t low, t high, x | y << 16, p
 layout(std430, binding = 1) readonly buffer Second { uvec4 second_part[]; };
 layout(std430, binding = 2) readonly buffer Total { uint total; };
-layout(push_constant) uniform Push { EncodePush push; };
+layout(push_constant) uniform Push { EncodePush pushed; };
+EncodePush push = pushed;
 
 uint events() { return min(total, push.most_events); }
 

@@ -10,7 +10,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Ages { uvec2 ages[]; };       // complements
 layout(std430, binding = 1) readonly buffer Values { uint values[]; };    // by age
 layout(std430, binding = 2) writeonly buffer Tensor { uint tensor[]; };   // bits of floats
-layout(push_constant) uniform Push { EncodePush push; };
+layout(push_constant) uniform Push { EncodePush pushed; };
+EncodePush push = pushed;
 
 void main() {
   const uint value = linear_index();

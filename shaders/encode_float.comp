@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Numbers { uint numbers[]; };
 layout(std430, binding = 1) writeonly buffer Tensor { uint tensor[]; };  // bits of floats
-layout(push_constant) uniform Push { EncodePush push; };
+layout(push_constant) uniform Push { EncodePush pushed; };
+EncodePush push = pushed;
 
 // The bits of the float nearest to number / 2^scale.
 uint float_bits(int64_t number, int scale) {

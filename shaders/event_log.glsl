@@ -4,7 +4,8 @@ layout(constant_id = 0) const uint kKeep = kKeepInside;
 layout(std430, binding = 0) readonly buffer From { uvec4 from[]; };  // t low, t high, x | y << 16, p
 layout(std430, binding = 2) readonly buffer Length { uint log_length; };
 layout(std430, binding = 3) readonly buffer KeepFrom { uint keep_from[]; };  // per block
-layout(push_constant) uniform Push { EventLogPush push; };
+layout(push_constant) uniform Push { EventLogPush pushed; };
+EventLogPush push = pushed;
 
 uint events_in_buffer() { return kKeep == kKeepInside ? push.events : min(push.events, log_length); }
 

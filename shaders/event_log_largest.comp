@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Events { uvec4 events[]; };
 layout(std430, binding = 1) readonly buffer Length { uint log_length; };
 layout(std430, binding = 2) writeonly buffer Largest { int64_t largest[]; };
-layout(push_constant) uniform Push { EventLogPush push; };
+layout(push_constant) uniform Push { EventLogPush pushed; };
+EventLogPush push = pushed;
 
 const int64_t kSmallestTime = int64_t(0x8000000000000000ul);
 

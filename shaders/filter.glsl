@@ -10,7 +10,8 @@ layout(std430, binding = 2) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 3) buffer Last { int64_t last[]; };                   // times relative to the first event
 layout(std430, binding = 4) writeonly buffer Filtered { uvec4 filtered[]; };   // outside the sensor before
 layout(std430, binding = 5) buffer Report { uint report[]; };
-layout(push_constant) uniform Push { FilterPush push; };
+layout(push_constant) uniform Push { FilterPush pushed; };
+FilterPush push = pushed;
 
 const int64_t kNever = int64_t(0x8000000080000000ul);  // kFilterNever twice
 

@@ -10,7 +10,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer From { dvec2 from[]; };
 layout(std430, binding = 1) writeonly buffer To { dvec2 to[]; };
 layout(std430, binding = 2) readonly buffer Roots { dvec2 roots[]; };  // exp(-2 pi i n / points), n = 0 .. points - 1
-layout(push_constant) uniform Push { FourierPush push; };
+layout(push_constant) uniform Push { FourierPush pushed; };
+FourierPush push = pushed;
 
 void main() {
   const uint element = linear_index();

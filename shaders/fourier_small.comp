@@ -11,7 +11,8 @@ layout(constant_id = 0) const uint kRadix = 4;
 layout(std430, binding = 0) readonly buffer From { dvec2 from[]; };
 layout(std430, binding = 1) writeonly buffer To { dvec2 to[]; };
 layout(std430, binding = 2) readonly buffer Roots { dvec2 roots[]; };  // exp(-2 pi i n / points), n = 0 .. points - 1
-layout(push_constant) uniform Push { FourierPush push; };
+layout(push_constant) uniform Push { FourierPush pushed; };
+FourierPush push = pushed;
 
 dvec2 root_of(uint n) {
   const dvec2 w = roots[n];

@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
 layout(std430, binding = 1) buffer LastEvent { uint last_event[]; };
-layout(push_constant) uniform Push { SurfacePush push; };
+layout(push_constant) uniform Push { SurfacePush pushed; };
+SurfacePush push = pushed;
 
 void main() {
   const uint e = linear_index();

@@ -6,7 +6,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
 layout(std430, binding = 0) writeonly buffer LastTime { uvec2 last_time[]; };
-layout(push_constant) uniform Push { FillTimesPush push; };
+layout(push_constant) uniform Push { FillTimesPush pushed; };
+FillTimesPush push = pushed;
 
 void main() {
   const uint place = linear_index();

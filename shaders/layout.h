@@ -28,6 +28,11 @@ SCARF_CONSTANT kCursorSkipOne = 65536;
 // The cursor of a chunk none of whose hits on the patch survives.
 SCARF_CONSTANT kCursorDead = 0xFFFFFFFFu;
 
+// One more lap of a ring's head; see ring_head.glsl.
+SCARF_CONSTANT kHeadLap = 65536;
+// No head: of a patch that is to be painted wherever its head is.
+SCARF_CONSTANT kNeverPainted = 0xFFFFFFFFu;
+
 // 8-bit levels in TonePush.
 SCARF_CONSTANT kPushedLevels = 8;
 
@@ -72,6 +77,42 @@ struct BatchPush {
   uint unused_position;
   uint bands;          // see team.glsl
   uint band_rows;      // of patches
+};
+
+// append: one batch of events.
+struct AppendPush {
+  uint first_event;    // index of the batch's first event in the staging buffer
+  uint events;         // events of this dispatch
+  uint width;          // sensor
+  uint height;
+  uint grid_x;
+  uint grid_y;
+  int field_x;         // origin - margin_lo: first pixel of the field of patch 0, may be negative
+  int field_y;
+  uint cell_x;
+  uint cell_y;
+  uint overlap_x;      // margin_lo + margin_hi: what a field has more than its cell
+  uint overlap_y;
+  uint inverse_x;      // of the cell; see divide() in scarf_append.comp
+  uint inverse_y;
+  uint capacity;
+  uint t_first_low;
+  uint t_first_high;
+  uint parts_y;        // of the patches; see scarf_append.comp
+  uint parts_shift;    // 1 << parts_shift is parts_y
+  uint bands;
+  uint band_rows;      // of a part
+  uint unused_slot;    // index of slots, one per invocation, for what is not to happen
+  uint margin_lo_x;
+  uint margin_lo_y;
+  uint row_bytes;      // of positions, per row of a cell; see kNotShown
+  uint ring_bytes;     // of positions, per patch
+  uint unused_position;
+};
+
+// settle: laps of all rings.
+struct SettlePush {
+  uint patches;
 };
 
 // clear: the slots of all rings.

@@ -5,7 +5,8 @@
 layout(std430, binding = 0) readonly buffer Events { uint events[]; };
 layout(std430, binding = 1) readonly buffer Chunks { ReplayChunk chunks[]; };
 layout(std430, binding = 2) buffer TableBuffer { uint table[]; };  // per chunk and patch
-layout(push_constant) uniform Push { ReplayPush push; };
+layout(push_constant) uniform Push { ReplayPush pushed; };
+ReplayPush push = pushed;
 
 // The patch in whose cell an event is: column | row << 16; kReplayNone if there is none.
 uint owner_of(uint xy) {

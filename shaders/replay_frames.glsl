@@ -6,7 +6,8 @@ layout(constant_id = 0) const uint kCountBits = 8;  // of a pixel's count: 8, or
 layout(std430, binding = 0) readonly buffer Changes { uint changes[]; };  // per interval
 layout(std430, binding = 1) buffer Counts { uint counts[]; };             // before the group; then behind it
 layout(std430, binding = 2) readonly buffer Levels { uint levels[]; };    // brightness of 0 .. capacity
-layout(push_constant) uniform Push { ReplayFramesPush push; };
+layout(push_constant) uniform Push { ReplayFramesPush pushed; };
+ReplayFramesPush push = pushed;
 
 // Counts of four pixels: one word of 8 bits each, or two words of 16.
 uvec2 read_counts(uint index) {

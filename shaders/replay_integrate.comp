@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
 layout(std430, binding = 0) buffer TableBuffer { uint table[]; };
-layout(push_constant) uniform Push { ReplayIntegratePush push; };
+layout(push_constant) uniform Push { ReplayIntegratePush pushed; };
+ReplayIntegratePush push = pushed;
 
 void main() {
   const uint line = linear_index();

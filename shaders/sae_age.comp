@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer LastTime { int64_t last_time[]; };
 layout(std430, binding = 1) writeonly buffer Ages { uint ages[]; };
-layout(push_constant) uniform Push { SaeAgePush push; };
+layout(push_constant) uniform Push { SaeAgePush pushed; };
+SaeAgePush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

@@ -8,7 +8,8 @@ layout(local_size_x = kPrefixGroup) in;
 layout(std430, binding = 0) buffer Words { uint words[]; };
 layout(std430, binding = 1) readonly buffer Offsets { uint offsets[]; };  // per block; valid if push.has_offsets
 layout(std430, binding = 2) readonly buffer Limit { uint limit; };        // words behind it are left alone
-layout(push_constant) uniform Push { PrefixPush push; };
+layout(push_constant) uniform Push { PrefixPush pushed; };
+PrefixPush push = pushed;
 
 shared uint lane_sums[kPrefixGroup];
 shared uint row_sums[kPrefixGroup / kPrefixRow];

@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "packed_event.glsl"
 
 layout(std430, binding = 0) writeonly buffer Slots { uint64_t slots[]; };
-layout(push_constant) uniform Push { ClearPush push; };
+layout(push_constant) uniform Push { ClearPush pushed; };
+ClearPush push = pushed;
 
 void main() {
   const uint slot = linear_index();

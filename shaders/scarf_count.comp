@@ -8,13 +8,15 @@ layout(local_size_x = kLinearGroup) in;
 #include "batch.glsl"
 #include "invocation.glsl"
 
-layout(std430, binding = 1) readonly buffer Classes { uint classes[]; };  // per column, then row; 0: no patch
-layout(std430, binding = 2) buffer Counts { uint counts[]; };             // per chunk, row class, column class
+layout(binding = 1) uniform usamplerBuffer classes;            // per column, then row; 0: no patch
+layout(std430, binding = 2) buffer Counts { uint counts[]; };  // per chunk, row class, column class
+
+uint class_at(uint entry) { return texelFetch(classes, int(entry)).x; }
 
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint xy = events[push.first_event + e].z;
-  const uint cell = classes[row_entry(xy)] * push.class_columns + classes[column_entry(xy)];
+  const uint xy = event_at(push.first_event + e).z;
+  const uint cell = class_at(row_entry(xy)) * push.class_columns + class_at(column_entry(xy));
   atomicAdd(counts[e / push.chunk_events * push.class_words + cell], 1);
 }

@@ -7,18 +7,20 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 #include "packed_event.glsl"
+#include "ring_head.glsl"
 #include "scarf_patch.glsl"
 
 layout(std430, binding = 0) readonly buffer Slots { uvec2 slots[]; };
-layout(std430, binding = 1) readonly buffer Totals { uvec2 totals[]; };
-layout(std430, binding = 2) buffer Cursors { uint cursors[]; };
+layout(std430, binding = 1) readonly buffer Heads { uint heads[]; };  // see ring_head.glsl
+layout(std430, binding = 2) readonly buffer Laps { uint64_t laps[]; };
+layout(std430, binding = 3) buffer Cursors { uint cursors[]; };
 
 void main() {
   const uint index = linear_index();
   if (index >= push.patches) return;
   const uint patch_id = push.first_patch + index;
   const uint ring = patch_of(patch_id).ring;
-  const uint end = min(push.slot_end, filled_slots(totals[patch_id]));
+  const uint end = min(push.slot_end, filled_slots(heads[patch_id], laps[patch_id], push.capacity));
   uint count = push.slot_begin == 0 ? 0 : cursors[index];
   // Trips: at most kSlotsPerDispatch. The order of slots does not matter to a count.
   for (uint s = push.slot_begin; s < end; ++s) {

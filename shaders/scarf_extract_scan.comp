@@ -7,7 +7,8 @@ layout(local_size_x = kScanGroup) in;
 
 layout(std430, binding = 0) buffer Cursors { uint cursors[]; };         // counts before, exclusive sums after
 layout(std430, binding = 1) writeonly buffer Total { uint all_events; };
-layout(push_constant) uniform Push { PatchPush push; };
+layout(push_constant) uniform Push { PatchPush pushed; };
+PatchPush push = pushed;
 
 shared uint sums[kScanGroup];
 

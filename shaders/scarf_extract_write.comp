@@ -7,11 +7,12 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 #include "packed_event.glsl"
+#include "ring_head.glsl"
 #include "scarf_patch.glsl"
 
 layout(std430, binding = 0) readonly buffer Slots { uvec2 slots[]; };
-layout(std430, binding = 1) readonly buffer Totals { uvec2 totals[]; };
-layout(std430, binding = 2) readonly buffer Heads { uint heads[]; };
+layout(std430, binding = 1) readonly buffer Heads { uint heads[]; };  // see ring_head.glsl
+layout(std430, binding = 2) readonly buffer Laps { uint64_t laps[]; };
 layout(std430, binding = 3) buffer Cursors { uint cursors[]; };
 // Events of 16 bytes take twice the room of slots; two halves keep each within one buffer binding.
 layout(std430, binding = 4) writeonly buffer FirstHalf { uvec4 first_half[]; };
@@ -22,8 +23,9 @@ void main() {
   if (index >= push.patches) return;
   const uint patch_id = push.first_patch + index;
   const Patch p = patch_of(patch_id);
-  const uint filled = filled_slots(totals[patch_id]);
-  const uint oldest = filled < push.capacity ? 0 : heads[patch_id];
+  const uint head = heads[patch_id];
+  const uint filled = filled_slots(head, laps[patch_id], push.capacity);
+  const uint oldest = filled < push.capacity ? 0 : head_slot(head);
   const uint end = min(push.slot_end, filled);
   const uint half_events = push.half_events;
   const uint64_t t_first = packUint2x32(uvec2(push.t_first_low, push.t_first_high));

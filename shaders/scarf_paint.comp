@@ -11,10 +11,12 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
-layout(std430, binding = 0) readonly buffer Positions { uvec4 positions[]; };  // 16 slots; see kNotShown
-layout(std430, binding = 1) buffer Dirty { uint dirty[]; };
-layout(std430, binding = 2) writeonly buffer Picture { uint8_t picture[]; };   // and bytes that nobody reads
-layout(push_constant) uniform Push { PaintPush push; };
+layout(binding = 0) uniform usamplerBuffer positions;  // 16 slots; see kNotShown
+layout(std430, binding = 1) readonly buffer Heads { uint heads[]; };           // see ring_head.glsl
+layout(std430, binding = 2) buffer PaintedHeads { uint painted_heads[]; };  // when the cells were last painted
+layout(std430, binding = 3) writeonly buffer Picture { uint8_t picture[]; };   // and bytes that nobody reads
+layout(push_constant) uniform Push { PaintPush pushed; };
+PaintPush push = pushed;
 
 // Four pixels of a row of the cell each: at most 255 events, because the capacity is. One more for what is not shown.
 uint counters[kPaintWords + 1];
@@ -28,7 +30,7 @@ void count(uint patch_id) {
   for (uint w = 0; w < push.row_words * push.cell_y; ++w) counters[w] = 0;
   uint group = 0;
   do {
-    const uvec4 words = positions[patch_id * push.groups + group];
+    const uvec4 words = texelFetch(positions, int(patch_id * push.groups + group));
     uvec4 left = shown_in(words);
     do {
       // The next position in any of the four words.
@@ -47,8 +49,10 @@ void count(uint patch_id) {
 
 void main() {
   const uint patch_id = linear_index();
-  if (patch_id >= push.patches || dirty[patch_id] == 0) return;
-  dirty[patch_id] = 0;
+  if (patch_id >= push.patches) return;
+  const uint head = heads[patch_id];
+  if (head == painted_heads[patch_id]) return;
+  painted_heads[patch_id] = head;
   count(patch_id);
   const uint x_begin = uint(push.cell_begin_x) + patch_id % push.grid_x * push.cell_x;  // cells may begin outside the
   const uint y_begin = uint(push.cell_begin_y) + patch_id / push.grid_x * push.cell_y;  // sensor, and wrap

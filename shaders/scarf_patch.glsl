@@ -1,5 +1,6 @@
 // A patch of the state, as the render and extract stages see it.
-layout(push_constant) uniform Push { PatchPush push; };
+layout(push_constant) uniform Push { PatchPush pushed; };
+PatchPush push = pushed;
 #include "active.glsl"
 
 struct Patch {
@@ -13,6 +14,3 @@ Patch patch_of(uint patch_id) {
   const uint j = patch_id / push.grid_x;
   return Patch(patch_id * push.capacity, push.field_x + int(i * push.cell_x), push.field_y + int(j * push.cell_y));
 }
-
-// Slots in use of a patch of which `total` events (low and high word) were pushed.
-uint filled_slots(uvec2 total) { return total.y != 0 ? push.capacity : min(total.x, push.capacity); }

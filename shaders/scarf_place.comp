@@ -5,25 +5,25 @@
 #extension GL_EXT_shader_8bit_storage : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "layout.h"
-#include "packed_event.glsl"
 #include "team.glsl"
-#include "active.glsl"
+#include "scarf_hit.glsl"
 
-layout(std430, binding = 1) readonly buffer Ranges { uint ranges[]; };  // first | last << 16 per column, then row
+layout(binding = 1) uniform usamplerBuffer ranges;                      // first | last << 16 per column, then row
 layout(std430, binding = 2) buffer TableBuffer { uint table[]; };       // cursors per chunk and patch
 layout(std430, binding = 3) writeonly buffer Slots { uint64_t slots[]; };
-layout(std430, binding = 4) readonly buffer Alive { uint alive[]; };    // see scarf_prune.comp; valid if push.prune
+layout(binding = 4) uniform usamplerBuffer alive;                       // see scarf_prune.comp; valid if push.prune
 layout(std430, binding = 5) writeonly buffer Positions { uint8_t positions[]; };  // per slot; see kNotShown
 
-layout(constant_id = 5) const bool kPaints = true;  // the paint stage needs positions
+layout(binding = 6, r32ui) uniform uimageBuffer table_image;            // the table, for drivers that read images faster
 
-// An event on its way to its patches.
-struct Walked {
-  uint columns;  // first | last << 16 of the patches that hold it
-  uint rows;
-  uint xy;       // x | y << 16
-  uvec2 word;    // time and polarity, packed
-};
+layout(constant_id = 5) const bool kPaints = true;       // the paint stage needs positions
+layout(constant_id = 6) const bool kTableImage = false;  // only one of the two is used
+
+uint read_entry(uint entry) { return kTableImage ? imageLoad(table_image, int(entry)).x : table[entry]; }
+void write_entry(uint entry, uint cursor) {
+  if (kTableImage) imageStore(table_image, int(entry), uvec4(cursor));
+  else table[entry] = cursor;
+}
 
 // The hit of an event on patch (i, j), if that holds it. Nothing is masked: on CPU devices an unpredictable branch
 // costs more than a store, so what is not to happen goes to an entry and a slot of the lane's own. The entry always
@@ -32,23 +32,19 @@ void place_hit(Lane lane, uint i, uint j, Walked e) {
   const bool held = i <= e.columns >> 16 && j <= e.rows >> 16;
   const uint patch_id = j * push.grid_x + i;
   const uint entry = held ? lane.base + patch_id : push.unused_entry + lane.all;
-  const uint cursor = table[entry];
+  const uint cursor = read_entry(entry);
   const bool stored = cursor < kCursorSkipOne;
   const uint next_slot = cursor + 1 == push.capacity ? 0 : cursor + 1;
   const uint next_skip = cursor == kCursorDead ? kCursorDead : cursor - kCursorSkipOne;
-  table[entry] = stored ? next_slot : next_skip;
+  write_entry(entry, stored ? next_slot : next_skip);
   // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity.
   const uint slot = stored ? patch_id * push.capacity + cursor : push.unused_slot + lane.all;
-  const uint field_x = uint(push.field_x) + i * push.cell_x;  // fields may begin outside the sensor and wrap,
-  const uint field_y = uint(push.field_y) + j * push.cell_y;  // pixels of events never do
-  const uint low_word = e.word.x | pack_position((e.xy & 0xFFFF) - field_x, (e.xy >> 16) - field_y);
-  slots[slot] = packUint2x32(uvec2(low_word, e.word.y));
+  const uvec2 word = slot_of(e, i, j);
+  slots[slot] = packUint2x32(word);
   if (kPaints) {
-    const uint x = packed_x(low_word) - push.margin_lo_x;
-    const uint y = packed_y(low_word) - push.margin_lo_y;
-    const uint position = is_active(low_word) ? y * push.row_bytes + x : kNotShown;
     // Eight bytes per lane, so that cores do not share a cache line.
-    positions[stored ? patch_id * push.ring_bytes + cursor : push.unused_position + 8 * lane.all] = uint8_t(position);
+    positions[stored ? patch_id * push.ring_bytes + cursor : push.unused_position + 8 * lane.all] =
+        uint8_t(position_of(word));
   }
 }
 
@@ -66,6 +62,8 @@ void place_event(Lane lane, Walked e) {
     for (uint c = 0; c < kLaneColumns; ++c) place_hit(lane, i + c * kTeamX, j + r * kTeamY, e);
   }
 }
+
+uint range_at(uint entry) { return texelFetch(ranges, int(entry)).x; }
 
 bool any_lane(bool value) { return subgroupBallot(value) != uvec4(0); }
 
@@ -88,22 +86,22 @@ void main() {
     do {
       const bool in_chunk = block + lane.index < end;
       own_event = push.first_event + (in_chunk ? block + lane.index : 0);
-      own.xy = events[own_event].z;
-      own.columns = ranges[column_entry(own.xy)];
-      own.rows = ranges[row_entry(own.xy)];
+      own.xy = event_at(own_event).z;
+      own.columns = range_at(column_entry(own.xy));
+      own.rows = range_at(row_entry(own.xy));
       const uvec2 first = uvec2(own.columns, own.rows) & 0xFFFF;
       const uvec2 last = uvec2(own.columns, own.rows) >> 16;
       const uint row_begin = max(first.y, band_begin);
       const uint row_last = min(last.y, band_last);
       bool walked = in_chunk && first.x <= last.x && row_begin <= row_last;
       if (push.prune != 0) {
-        walked = walked && alive[walked ? lane.base + first.y * push.grid_x + first.x : 0] != 0;
+        walked = walked && texelFetch(alive, walked ? int(lane.base + first.y * push.grid_x + first.x) : 0).x != 0;
       }
       own.rows = row_begin | row_last << 16;
       left = team_ballot(lane, walked);
       block += kTeamLanes;
     } while (!any_lane(left != 0) && any_lane(block < end));
-    const uvec4 event = events[own_event];
+    const uvec4 event = event_at(own_event);
     own.word = unpackUint2x32(pack_time(packUint2x32(event.xy) - t_first) | pack_polarity(event.w & 1));
     // A team takes the events that are left in their order; when none are, an empty rectangle of patches.
     do {

@@ -7,9 +7,10 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
-layout(std430, binding = 0) readonly buffer TableBuffer { uint table[]; };   // cursors
+layout(binding = 0) uniform usamplerBuffer table;                           // cursors
 layout(std430, binding = 1) writeonly buffer Alive { uint alive[]; };       // per chunk and first patch: 0 or 1
-layout(push_constant) uniform Push { PrunePush push; };
+layout(push_constant) uniform Push { PrunePush pushed; };
+PrunePush push = pushed;
 
 void main() {
   const uint entry = linear_index();
@@ -24,7 +25,7 @@ void main() {
   // Trips: at most 128 rows of at most 128 patches and an entry each.
   for (uint b = j; b < j_end; ++b) {
     for (uint a = i; a < i_end; ++a) {
-      any_alive |= table[chunk_base + b * push.grid_x + a] != kCursorDead ? 1 : 0;
+      any_alive |= texelFetch(table, int(chunk_base + b * push.grid_x + a)).x != kCursorDead ? 1 : 0;
     }
   }
   alive[entry] = any_alive;

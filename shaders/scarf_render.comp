@@ -8,18 +8,20 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 #include "packed_event.glsl"
+#include "ring_head.glsl"
 #include "scarf_patch.glsl"
 
 layout(std430, binding = 0) readonly buffer Slots { uvec2 slots[]; };
-layout(std430, binding = 1) readonly buffer Totals { uvec2 totals[]; };
-layout(std430, binding = 2) buffer Counts { int counts[]; };  // planes; zeros before the first dispatch
+layout(std430, binding = 1) readonly buffer Heads { uint heads[]; };  // see ring_head.glsl
+layout(std430, binding = 2) readonly buffer Laps { uint64_t laps[]; };
+layout(std430, binding = 3) buffer Counts { int counts[]; };  // planes; zeros before the first dispatch
 
 void main() {
   const uint patch_id = linear_index();
   if (patch_id >= push.patches) return;
   const Patch p = patch_of(patch_id);
   const uint plane = push.width * push.height;
-  const uint end = min(push.slot_end, filled_slots(totals[patch_id]));
+  const uint end = min(push.slot_end, filled_slots(heads[patch_id], laps[patch_id], push.capacity));
   // No other invocation counts in this patch's cell. Trips: at most kSlotsPerDispatch.
   for (uint s = push.slot_begin; s < end; ++s) {
     const uint word = slots[p.ring + s].x;

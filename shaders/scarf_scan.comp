@@ -1,19 +1,25 @@
-// SCARF, stage "scan": per patch, the chunks' hits become cursors, and head and total advance.
+// SCARF, stage "scan": per patch, the chunks' hits become cursors, and the head and the laps
+// advance.
 // CPU twin: cpu_ref/stages/scarf_scan.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #include "layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
+#include "ring_head.glsl"
 
-layout(std430, binding = 0) readonly buffer Sums { uint sums[]; };              // see scarf_sum.comp
+layout(binding = 0) uniform usamplerBuffer sums;                               // see scarf_sum.comp
 layout(std430, binding = 1) readonly buffer PatchClasses { uint classes[]; };  // before the first | last << 16, per
                                                                                // column of patches, then row
 layout(std430, binding = 2) buffer TableBuffer { uint table[]; };              // cursors per chunk and patch
-layout(std430, binding = 3) buffer Heads { uint heads[]; };                    // next slot to write: total mod capacity
-layout(std430, binding = 4) buffer Totals { uvec2 totals[]; };                 // events ever pushed, low and high word
-layout(std430, binding = 5) buffer Dirty { uint dirty[]; };                    // 1: the patch is not painted yet
-layout(push_constant) uniform Push { ScanPush push; };
+layout(std430, binding = 3) buffer Heads { uint heads[]; };                    // see ring_head.glsl
+layout(std430, binding = 4) buffer Laps { uint64_t laps[]; };
+layout(std430, binding = 5) buffer PaintedHeads { uint painted_heads[]; };     // see scarf_paint.comp
+layout(push_constant) uniform Push { ScanPush pushed; };
+ScanPush push = pushed;
+
+uint sum_at(uint entry) { return texelFetch(sums, int(entry)).x; }
 
 void main() {
   const uint patch_id = linear_index();
@@ -28,8 +34,8 @@ void main() {
   // Trips: 2 * (chunks + 1); Plan::max_chunks keeps them below the device's limit.
   for (uint c = 0; c < push.chunks; ++c) {
     const uint base = c * push.class_words;
-    const uint count =
-        sums[base + below + right] - sums[base + below + left] - sums[base + above + right] + sums[base + above + left];
+    const uint count = sum_at(base + below + right) - sum_at(base + below + left) - sum_at(base + above + right) +
+                       sum_at(base + above + left);
     table[c * push.patches + patch_id] = count;
     hits += count;
   }
@@ -42,12 +48,12 @@ void main() {
     const uint entry = c * push.patches + patch_id;
     const uint count = table[entry];
     const uint skip = overwritten > rank ? min(overwritten - rank, count) : 0;
-    table[entry] = skip == count ? kCursorDead : skip * kCursorSkipOne + (head + rank + skip) % push.capacity;
+    table[entry] = skip == count ? kCursorDead : skip * kCursorSkipOne + (head_slot(head) + rank + skip) % push.capacity;
     rank += count;
   }
-  heads[patch_id] = (head + hits) % push.capacity;
-  uint carry;
-  const uint low = uaddCarry(totals[patch_id].x, hits, carry);
-  totals[patch_id] = uvec2(low, totals[patch_id].y + carry);
-  if (hits != 0) dirty[patch_id] = 1;
+  const uint end = head_slot(head) + hits;
+  const uint64_t filled = (head >> 16) + end / push.capacity;
+  heads[patch_id] = end % push.capacity;
+  if (filled != 0) laps[patch_id] += filled;
+  if (filled != 0 || hits != 0) painted_heads[patch_id] = kNeverPainted;
 }

@@ -7,8 +7,9 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
-layout(std430, binding = 0) buffer Counts { uint counts[]; };
-layout(push_constant) uniform Push { SumPush push; };
+layout(binding = 0, r32ui) uniform uimageBuffer counts;
+layout(push_constant) uniform Push { SumPush pushed; };
+SumPush push = pushed;
 
 void main() {
   const uint line = linear_index();
@@ -17,7 +18,8 @@ void main() {
   uint sum = 0;
   // Trips: classes of one axis, at most one per pixel and class 0: 16,385.
   for (uint i = 0; i < push.line_classes; ++i) {
-    sum += counts[begin + i * push.class_stride];
-    counts[begin + i * push.class_stride] = sum;
+    const int entry = int(begin + i * push.class_stride);
+    sum += imageLoad(counts, entry).x;
+    imageStore(counts, entry, uvec4(sum));
   }
 }

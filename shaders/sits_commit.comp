@@ -10,7 +10,8 @@ layout(std430, binding = 0) readonly buffer Begins { uint begins[]; };
 layout(std430, binding = 1) readonly buffer Swept { ivec2 swept[]; };
 layout(std430, binding = 2) writeonly buffer Values { ivec2 values[]; };
 layout(std430, binding = 3) readonly buffer Unsettled { uint unsettled[]; };
-layout(push_constant) uniform Push { SitsPush push; };
+layout(push_constant) uniform Push { SitsPush pushed; };
+SitsPush push = pushed;
 
 void main() {
   const uint pair = linear_index();

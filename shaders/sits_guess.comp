@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 1) readonly buffer Values { int values[]; };
 layout(std430, binding = 2) writeonly buffer Centres { int centres[]; };
-layout(push_constant) uniform Push { SitsPush push; };
+layout(push_constant) uniform Push { SitsPush pushed; };
+SitsPush push = pushed;
 
 void main() {
   const uint e = linear_index();

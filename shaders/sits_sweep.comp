@@ -25,7 +25,8 @@ layout(std430, binding = 5) readonly buffer CentresBefore { int centres_before[]
 layout(std430, binding = 6) writeonly buffer Centres { int centres[]; };  // of events that other tiles look at
 // Per sweep, whether it found anything new; then per tile, whether it did in even sweeps; then in odd ones.
 layout(std430, binding = 7) buffer Unsettled { uint unsettled[]; };
-layout(push_constant) uniform Push { SitsPush push; };
+layout(push_constant) uniform Push { SitsPush pushed; };
+SitsPush push = pushed;
 
 // Rows are longer by a row of lanes, so that the lanes of a team are in different banks of the shared memory.
 const uint kPairs = kTile / 2;

@@ -14,7 +14,8 @@ const uint kTeamLanes = kTeamX * kTeamY;
 
 layout(std430, binding = 1) buffer Values { uint64_t values[]; };             // two pixels each
 layout(std430, binding = 2) readonly buffer Unsettled { uint unsettled[]; };  // per sweep
-layout(push_constant) uniform Push { SitsPush push; };
+layout(push_constant) uniform Push { SitsPush pushed; };
+SitsPush push = pushed;
 
 // One word of 64 bits: on CPU devices a load costs the same whatever its width, but twice as much for a vector of two.
 uint place_of(ivec2 pair) { return uint(pair.y) * push.pairs_x + uint(pair.x); }

@@ -62,6 +62,3 @@ Lane this_lane() {
 uint team_ballot(Lane lane, bool value) {
   return subgroupBallot(value)[lane.team / 32] >> lane.team % 32 & 0xFFFFFFFFu >> 32 - kTeamLanes;
 }
-
-// First value >= first that is = lane mod team.
-uint first_owned(uint first, uint lane, uint team) { return first + ((lane - first) & (team - 1)); }

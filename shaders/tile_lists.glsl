@@ -1,5 +1,6 @@
 // The tiles whose lists hold an event.
-layout(push_constant) uniform Push { TileListsPush push; };
+layout(push_constant) uniform Push { TileListsPush pushed; };
+TileListsPush push = pushed;
 
 struct Tiles {
   uint left;  // columns left .. right and rows top .. bottom of tiles

@@ -10,7 +10,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Events { uvec4 events[]; };  // t low, t high, x | y << 16, p
 layout(std430, binding = 1) readonly buffer Length { uint log_length; };
 layout(std430, binding = 2) buffer Counts { uint counts[]; };
-layout(push_constant) uniform Push { TimeWindowPush push; };
+layout(push_constant) uniform Push { TimeWindowPush pushed; };
+TimeWindowPush push = pushed;
 
 void main() {
   const uint e = linear_index();

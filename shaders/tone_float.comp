@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Numbers { int numbers[]; };
 layout(std430, binding = 1) readonly buffer LevelsFloat { uint levels[]; };
 layout(std430, binding = 2) writeonly buffer Picture { uint picture[]; };
-layout(push_constant) uniform Push { TonePush push; };
+layout(push_constant) uniform Push { TonePush pushed; };
+TonePush push = pushed;
 
 void main() {
   const uint pixel = linear_index();

@@ -9,7 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 layout(std430, binding = 0) readonly buffer Numbers { ivec4 numbers[]; };  // four pixels
 layout(std430, binding = 1) readonly buffer LevelsU8 { uint levels[]; };
 layout(std430, binding = 2) writeonly buffer Picture { uint picture[]; };
-layout(push_constant) uniform Push { TonePush push; };
+layout(push_constant) uniform Push { TonePush pushed; };
+TonePush push = pushed;
 
 // The first levels travel as push constants: most numbers are small, and a lookup in memory is dear.
 uint level(int number) {

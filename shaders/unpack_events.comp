@@ -8,7 +8,8 @@ layout(local_size_x = kLinearGroup) in;
 
 layout(std430, binding = 0) readonly buffer Packed { uint packed[]; };     // the table of blocks, then their data
 layout(std430, binding = 1) writeonly buffer Events { uvec4 events[]; };   // t low, t high, x | y << 16, p
-layout(push_constant) uniform Push { UnpackPush push; };
+layout(push_constant) uniform Push { UnpackPush pushed; };
+UnpackPush push = pushed;
 
 void main() {
   const uint e = linear_index();

@@ -1,6 +1,7 @@
 // scarf verify: the CPU reference and the device on the same stream, compared after every batch.
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <tuple>
 
 #include "core/text.h"
@@ -162,6 +163,12 @@ void add_verify(CLI::App& program, Command& command) {
            name, [options, number = number](uint32_t value) { options->plan.*number = value; }, help)
         ->group(plan);
   }
+  const std::map<std::string, GpuOptions::Placing> placings = {{"automatic", GpuOptions::Placing::automatic},
+                                                               {"chunked", GpuOptions::Placing::chunked},
+                                                               {"appended", GpuOptions::Placing::appended}};
+  app->add_option("--placing", options->plan.placing, "How events of scarf get into the rings")
+      ->transform(CLI::CheckedTransformer(placings))
+      ->group(plan);
   app->callback([&command, options] {
     if (options->failing.empty()) {
       options->failing = std::filesystem::path(options->stream.file).stem().string() + ".failing.txt";

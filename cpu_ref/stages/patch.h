@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/ring_head.h"
 #include "shaders/layout.h"
 
 namespace scarf::stages {
 
-inline uint64_t filled_slots(uint64_t total, const layout::PatchPush& push) {
-  return std::min<uint64_t>(total, push.capacity);
+inline uint64_t filled_slots(uint32_t head, uint64_t laps, const layout::PatchPush& push) {
+  return std::min<uint64_t>(ring_total(head, laps, push.capacity), push.capacity);
 }
 inline int32_t patch_field_x(uint32_t patch, const layout::PatchPush& push) {
   return push.field_x + static_cast<int32_t>(patch % push.grid_x * push.cell_x);

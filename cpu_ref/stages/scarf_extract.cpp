@@ -5,12 +5,13 @@
 
 namespace scarf::stages {
 
-void scarf_extract_count(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
-                         std::span<uint32_t> cursors, const layout::PatchPush& push) {
+void scarf_extract_count(std::span<const uint64_t> slots, std::span<const uint32_t> heads,
+                         std::span<const uint64_t> laps, std::span<uint32_t> cursors,
+                         const layout::PatchPush& push) {
   for (uint32_t index = 0; index < push.patches; ++index) {
     const uint32_t patch = push.first_patch + index;
     cursors[index] = 0;
-    for (uint64_t s = 0; s < filled_slots(totals[patch], push); ++s) {
+    for (uint64_t s = 0; s < filled_slots(heads[patch], laps[patch], push); ++s) {
       if (push.mode == 0 || is_active(slots[uint64_t{patch} * push.capacity + s], push)) ++cursors[index];
     }
   }
@@ -26,14 +27,14 @@ uint32_t scarf_extract_scan(std::span<uint32_t> cursors) {
   return place;
 }
 
-void scarf_extract_write(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
-                         std::span<const uint32_t> heads, std::span<uint32_t> cursors, std::span<Event> out,
+void scarf_extract_write(std::span<const uint64_t> slots, std::span<const uint32_t> heads,
+                         std::span<const uint64_t> laps, std::span<uint32_t> cursors, std::span<Event> out,
                          const layout::PatchPush& push) {
   const auto t_first = static_cast<int64_t>(uint64_t{push.t_first_high} << 32 | push.t_first_low);
   for (uint32_t index = 0; index < push.patches; ++index) {
     const uint32_t patch = push.first_patch + index;
-    const uint64_t filled = filled_slots(totals[patch], push);
-    const uint64_t oldest = filled < push.capacity ? 0 : heads[patch];
+    const uint64_t filled = filled_slots(heads[patch], laps[patch], push);
+    const uint64_t oldest = filled < push.capacity ? 0 : head_slot(heads[patch]);
     for (uint64_t rank = 0; rank < filled; ++rank) {
       const uint64_t word = slots[uint64_t{patch} * push.capacity + (oldest + rank) % push.capacity];
       if (push.mode != 0 && !is_active(word, push)) continue;

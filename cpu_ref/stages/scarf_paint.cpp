@@ -3,11 +3,12 @@
 
 namespace scarf::stages {
 
-void scarf_paint(std::span<const uint8_t> positions, std::span<uint32_t> dirty, std::span<uint8_t> picture,
+void scarf_paint(std::span<const uint8_t> positions, std::span<const uint32_t> heads,
+                 std::span<uint32_t> painted_heads, std::span<uint8_t> picture,
                  const layout::PaintPush& push) {
   for (uint32_t patch = 0; patch < push.patches; ++patch) {
-    if (dirty[patch] == 0) continue;
-    dirty[patch] = 0;
+    if (heads[patch] == painted_heads[patch]) continue;
+    painted_heads[patch] = heads[patch];
     const int32_t x_begin = push.cell_begin_x + static_cast<int32_t>(patch % push.grid_x * push.cell_x);
     const int32_t y_begin = push.cell_begin_y + static_cast<int32_t>(patch / push.grid_x * push.cell_y);
     uint32_t counts[layout::kNotShown + 1] = {};

@@ -4,11 +4,11 @@
 
 namespace scarf::stages {
 
-void scarf_render(std::span<const uint64_t> slots, std::span<const uint64_t> totals,
-                  std::span<int32_t> counts, const layout::PatchPush& push) {
+void scarf_render(std::span<const uint64_t> slots, std::span<const uint32_t> heads,
+                  std::span<const uint64_t> laps, std::span<int32_t> counts, const layout::PatchPush& push) {
   const size_t plane = size_t{push.width} * push.height;
   for (uint32_t patch = 0; patch < push.patches; ++patch) {
-    const uint64_t end = std::min<uint64_t>(push.slot_end, filled_slots(totals[patch], push));
+    const uint64_t end = std::min<uint64_t>(push.slot_end, filled_slots(heads[patch], laps[patch], push));
     for (uint64_t s = push.slot_begin; s < end; ++s) {
       const uint64_t word = slots[uint64_t{patch} * push.capacity + s];
       if (!is_active(word, push)) continue;

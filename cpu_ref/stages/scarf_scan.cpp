@@ -1,13 +1,14 @@
 // Twin of shaders/scarf_scan.comp.
 #include <algorithm>
 
+#include "core/ring_head.h"
 #include "cpu_ref/stages/stages.h"
 
 namespace scarf::stages {
 
 void scarf_scan(std::span<const uint32_t> sums, std::span<const uint32_t> patch_classes,
-                std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> totals,
-                std::span<uint32_t> dirty, const layout::ScanPush& push) {
+                std::span<uint32_t> table, std::span<uint32_t> heads, std::span<uint64_t> laps,
+                std::span<uint32_t> painted_heads, const layout::ScanPush& push) {
   for (uint32_t patch = 0; patch < push.patches; ++patch) {
     const uint32_t columns = patch_classes[patch % push.grid_x];
     const uint32_t rows = patch_classes[push.grid_x + patch / push.grid_x];
@@ -27,13 +28,14 @@ void scarf_scan(std::span<const uint32_t> sums, std::span<const uint32_t> patch_
       uint32_t& entry = table[c * push.patches + patch];
       const int64_t count = entry;
       const int64_t skip = std::clamp<int64_t>(overwritten - rank, 0, count);
-      const int64_t slot = (heads[patch] + rank + skip) % push.capacity;
+      const int64_t slot = (head_slot(heads[patch]) + rank + skip) % push.capacity;
       entry = skip == count ? layout::kCursorDead : static_cast<uint32_t>(skip << 16 | slot);
       rank += count;
     }
-    heads[patch] = (heads[patch] + hits) % push.capacity;
-    totals[patch] += hits;
-    if (hits != 0) dirty[patch] = 1;
+    const uint64_t total = ring_total(heads[patch], laps[patch], push.capacity) + hits;
+    if (hits != 0 || heads[patch] >> kHeadLapsShift != 0) painted_heads[patch] = layout::kNeverPainted;
+    laps[patch] = total / push.capacity;
+    heads[patch] = static_cast<uint32_t>(total % push.capacity);
   }
 }
 

@@ -83,6 +83,10 @@ struct GpuOptions {
   uint32_t submission_events = 0;
   /// Events walked by one team of invocations; 0: chosen for the device. Never changes a result.
   uint32_t chunk_events = 0;
+  /// How events of scarf get into the rings: as chunks side by side, or one after the other from the rings'
+  /// heads on, for several parts of the patches side by side. automatic: as suits device and submission, but
+  /// chunks if chunk_events is given. Never changes a result.
+  enum class Placing { automatic, chunked, appended } placing = Placing::automatic;
   /// Bands of rows of patches that a core works on one after the other; 0: chosen for the device, at most 64.
   /// Never changes a result.
   uint32_t bands = 0;

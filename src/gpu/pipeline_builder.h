@@ -47,8 +47,9 @@ class PipelineBuilder {
     bytes_ += target.size();
   }
   /// See vulkan::Kernel::create.
-  void kernel(vulkan::Kernel& target, const char* name, std::span<const uint32_t> spirv, uint32_t bindings,
-              size_t push_bytes, std::span<const uint32_t> constants = {}, bool whole_subgroups = false) {
+  void kernel(vulkan::Kernel& target, const char* name, std::span<const uint32_t> spirv,
+              const vulkan::Bindings& bindings, size_t push_bytes, std::span<const uint32_t> constants = {},
+              bool whole_subgroups = false) {
     make(target, [&] {
       return vulkan::Kernel::create(device_, name, spirv, bindings, static_cast<uint32_t>(push_bytes),
                                     constants, whole_subgroups);

@@ -4,6 +4,7 @@
 
 #include "core/packed_event.h"
 #include "core/queries.h"
+#include "core/ring_head.h"
 #include "gpu/encoder.h"
 #include "gpu/on_device.h"
 #include "scarf/gpu.h"
@@ -13,12 +14,14 @@
 namespace scarf {
 namespace {
 
-Snapshot unpack_state(const Geometry& g, int64_t t_first, const uint64_t* totals, const uint64_t* slots) {
+Snapshot unpack_state(const Geometry& g, int64_t t_first, const uint32_t* heads, const uint64_t* laps,
+                      const uint64_t* slots) {
   Snapshot s;
   s.geometry = g;
-  s.totals.assign(totals, totals + g.patches());
+  s.totals.resize(g.patches());
   s.slots.resize(g.patches() * g.capacity);
   for (int64_t patch = 0; patch < g.patches(); ++patch) {
+    s.totals[patch] = ring_total(heads[patch], laps[patch], g.capacity);
     const int32_t x = g.x.field_begin(static_cast<int32_t>(patch % g.x.grid));
     const int32_t y = g.y.field_begin(static_cast<int32_t>(patch / g.x.grid));
     const int64_t ring = patch * g.capacity;
@@ -119,13 +122,18 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
         QueryKind::state, [&](Query&, const StreamFacts& facts) -> Result<Answer<Snapshot>> {
           const int64_t t_first = facts.first.value_or(0);
           const auto read = [g = geometry_, t_first](HostParts parts) -> Result<Snapshot> {
-            return unpack_state(g, t_first, static_cast<const uint64_t*>(parts[0]),
-                                static_cast<const uint64_t*>(parts[1]));
+            return unpack_state(g, t_first, static_cast<const uint32_t*>(parts[0]),
+                                static_cast<const uint64_t*>(parts[1]),
+                                static_cast<const uint64_t*>(parts[2]));
           };
-          const vulkan::Buffer& totals = pipeline_.totals();
+          const vulkan::Buffer& heads = pipeline_.heads();
+          const vulkan::Buffer& laps = pipeline_.laps();
           const vulkan::Buffer& slots = pipeline_.slots();
           const uint64_t state_bytes = geometry_.patches() * geometry_.capacity * sizeof(uint64_t);
-          return Answer<Snapshot>{{{&totals, totals.size()}, {&slots, state_bytes}}, read};
+          return Answer<Snapshot>{{{&heads, geometry_.patches() * sizeof(uint32_t)},
+                                   {&laps, geometry_.patches() * sizeof(uint64_t)},
+                                   {&slots, state_bytes}},
+                                  read};
         });
   }
 

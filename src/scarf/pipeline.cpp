@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/ceil_div.h"
+#include "core/ring_head.h"
 #include "core/words.h"
 #include "scarf/pixel_classes.h"
 #include "shaders/shaders.h"
@@ -13,6 +14,7 @@ namespace {
 using vulkan::BoundKernel;
 using vulkan::Buffer;
 using vulkan::Commands;
+using vulkan::View;
 
 constexpr uint64_t kWord = sizeof(uint32_t);
 
@@ -41,9 +43,9 @@ void ScarfPipeline::build(PipelineBuilder& b, const Levels& levels) {
            uint64_t{plan_.max_chunks} * plan_.class_words() * kWord);
   b.buffer(table_, "the table of chunks and patches", (plan_.table_words() + unused) * kWord);
   b.buffer(alive_, "the table of chunks and surviving events", plan_.table_words() * kWord);
-  b.buffer(heads_, "the ring heads", patches * kWord);
-  b.buffer(totals_, "the totals", patches * 8);
-  b.buffer(dirty_, "the marks of changed patches", patches * kWord);
+  b.buffer(heads_, "the ring heads", (patches + plan_.append.invocations()) * kWord);
+  b.buffer(laps_, "the laps of the rings", patches * sizeof(uint64_t));
+  b.buffer(painted_heads_, "the ring heads when the patches were painted", patches * kWord);
   b.buffer(counts_, "the count image (two planes)", 2 * plane * kWord);
   // One byte behind the pictures's pixels takes those of cells that are not on the sensor.
   b.buffer(painted_, "the 8-bit picture", plane / 4 * 4 + 4);
@@ -58,28 +60,45 @@ void ScarfPipeline::build(PipelineBuilder& b, const Levels& levels) {
   b.table<uint32_t>(patch_classes_, "the classes of patches", columns.of_patch);
   tone_.build(b, levels, 2 * plane);
 
-  const uint32_t team[] = {plan_.workgroup_size(), plan_.team_x,    plan_.team_y,
-                           plan_.lane_columns,     plan_.lane_rows, plan_.paints ? 1U : 0U};
-  b.kernel(count_, "scarf_count", shaders::scarf_count, 3, sizeof(layout::BatchPush));
-  b.kernel(sum_, "scarf_sum", shaders::scarf_sum, 1, sizeof(layout::SumPush));
-  b.kernel(scan_, "scarf_scan", shaders::scarf_scan, 6, sizeof(layout::ScanPush));
-  b.kernel(prune_, "scarf_prune", shaders::scarf_prune, 2, sizeof(layout::PrunePush));
+  const uint32_t team[] = {plan_.workgroup_size(),     plan_.team_x,    plan_.team_y,
+                           plan_.lane_columns,         plan_.lane_rows, plan_.paints ? 1U : 0U,
+                           plan_.table_image ? 1U : 0U};
+  const AppendPlan& a = plan_.append;
+  const uint32_t appending[] = {
+      a.lanes, a.team_x, a.team_y, a.lane_columns, a.lane_rows, plan_.paints ? 1U : 0U, a.teams};
+  b.kernel(count_, "scarf_count", shaders::scarf_count, {View::vectors, View::words, View::storage},
+           sizeof(layout::BatchPush));
+  b.kernel(sum_, "scarf_sum", shaders::scarf_sum, {View::image}, sizeof(layout::SumPush));
+  b.kernel(scan_, "scarf_scan", shaders::scarf_scan,
+           {View::words, View::storage, View::storage, View::storage, View::storage, View::storage},
+           sizeof(layout::ScanPush));
+  b.kernel(prune_, "scarf_prune", shaders::scarf_prune, {View::words, View::storage},
+           sizeof(layout::PrunePush));
+  b.kernel(settle_, "scarf_settle", shaders::scarf_settle, 3, sizeof(layout::SettlePush));
   b.kernel(clear_, "scarf_clear", shaders::scarf_clear, 1, sizeof(layout::ClearPush));
-  b.kernel(place_, "scarf_place", shaders::scarf_place, 6, sizeof(layout::BatchPush), team,
+  b.kernel(
+      place_, "scarf_place", shaders::scarf_place,
+      {View::vectors, View::words, View::storage, View::storage, View::words, View::storage, View::image},
+      sizeof(layout::BatchPush), team,
+      /*whole_subgroups=*/true);
+  b.kernel(append_, "scarf_append", shaders::scarf_append,
+           {View::vectors, View::image, View::storage, View::storage}, sizeof(layout::AppendPush), appending,
            /*whole_subgroups=*/true);
-  b.kernel(render_, "scarf_render", shaders::scarf_render, 3, sizeof(layout::PatchPush));
-  b.kernel(paint_, "scarf_paint", shaders::scarf_paint, 3, sizeof(layout::PaintPush));
-  b.kernel(extract_count_, "scarf_extract_count", shaders::scarf_extract_count, 3, sizeof(layout::PatchPush));
+  b.kernel(render_, "scarf_render", shaders::scarf_render, 4, sizeof(layout::PatchPush));
+  b.kernel(paint_, "scarf_paint", shaders::scarf_paint,
+           {View::vectors, View::storage, View::storage, View::storage}, sizeof(layout::PaintPush));
+  b.kernel(extract_count_, "scarf_extract_count", shaders::scarf_extract_count, 4, sizeof(layout::PatchPush));
   b.kernel(extract_scan_, "scarf_extract_scan", shaders::scarf_extract_scan, 2, sizeof(layout::PatchPush));
   b.kernel(extract_write_, "scarf_extract_write", shaders::scarf_extract_write, 6, sizeof(layout::PatchPush));
 
   b.bind(bound_sum_, sum_, {&class_counts_});
-  b.bind(bound_scan_, scan_, {&class_counts_, &patch_classes_, &table_, &heads_, &totals_, &dirty_});
+  b.bind(bound_scan_, scan_, {&class_counts_, &patch_classes_, &table_, &heads_, &laps_, &painted_heads_});
   b.bind(bound_prune_, prune_, {&table_, &alive_});
+  b.bind(bound_settle_, settle_, {&heads_, &laps_, &painted_heads_});
   b.bind(bound_clear_, clear_, {&slots_});
-  b.bind(bound_render_, render_, {&slots_, &totals_, &counts_});
-  b.bind(bound_paint_, paint_, {&positions_, &dirty_, &painted_});
-  b.bind(bound_extract_count_, extract_count_, {&slots_, &totals_, &cursors_});
+  b.bind(bound_render_, render_, {&slots_, &heads_, &laps_, &counts_});
+  b.bind(bound_paint_, paint_, {&positions_, &heads_, &painted_heads_, &painted_});
+  b.bind(bound_extract_count_, extract_count_, {&slots_, &heads_, &laps_, &cursors_});
   tone_.bind(b, bound_tone_, counts_);
 }
 
@@ -87,7 +106,8 @@ Result<std::unique_ptr<EventBinding>> ScarfPipeline::bind_events(const Buffer& e
   auto k = std::make_unique<PushKernels>();
   PipelineBuilder b(device_);
   b.bind(k->count, count_, {&events, &pixel_classes_, &class_counts_});
-  b.bind(k->place, place_, {&events, &ranges_, &table_, &slots_, &alive_, &positions_});
+  b.bind(k->place, place_, {&events, &ranges_, &table_, &slots_, &alive_, &positions_, &table_});
+  b.bind(k->append, append_, {&events, &heads_, &slots_, &positions_});
   if (!b.result()) return b.result().error();
   return std::unique_ptr<EventBinding>(std::move(k));
 }
@@ -107,21 +127,22 @@ Result<std::unique_ptr<ExtractTarget>> ScarfPipeline::make_extract_target() cons
   b.readback(t->first, "the extracted events", half_events() * sizeof(Event));
   b.readback(t->second, "the extracted events", half_events() * sizeof(Event));
   b.bind(t->scan, extract_scan_, {&cursors_, &t->total});
-  b.bind(t->write, extract_write_, {&slots_, &totals_, &heads_, &cursors_, &t->first, &t->second});
+  b.bind(t->write, extract_write_, {&slots_, &heads_, &laps_, &cursors_, &t->first, &t->second});
   if (!b.result()) return b.result().error();
   return t;
 }
 
 void ScarfPipeline::record_reset(Commands& commands) {
   commands.fill(heads_, 0);
-  commands.fill(totals_, 0);
-  commands.fill(dirty_, 0);
+  commands.fill(laps_, 0);
+  commands.fill(painted_heads_, 0);
   commands.fill(painted_, 0);
   commands.fill(positions_, UINT32_MAX);
   commands.fill(table_, layout::kCursorDead);  // for the entries behind those of chunks
   const layout::ClearPush push = {static_cast<uint32_t>(ring_slots(geometry_))};
   commands.dispatch(bound_clear_, push.slots, layout::kLinearGroup, push);
   commands.mark("reset");
+  unsettled_laps_ = 0;
 }
 
 layout::BatchPush ScarfPipeline::batch_push(uint32_t first, uint32_t count, int64_t t_first) const {
@@ -180,12 +201,13 @@ void ScarfPipeline::record_sum(Commands& commands, const layout::BatchPush& push
   commands.mark("sum");
 }
 
-void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& push) const {
+void ScarfPipeline::record_scan(Commands& commands, const layout::BatchPush& push) {
   const layout::ScanPush scan = {push.patches, push.chunks,        push.capacity,
                                  push.grid_x,  push.class_columns, push.class_words};
   commands.dispatch(bound_scan_, plan_.patches, layout::kLinearGroup, scan);
   commands.barrier();
   commands.mark("scan");
+  unsettled_laps_ = 0;
 }
 
 void ScarfPipeline::record_prune(Commands& commands, const layout::BatchPush& push) const {
@@ -205,9 +227,75 @@ void ScarfPipeline::record_place(Commands& commands, const PushKernels& kernels,
   commands.mark("place");
 }
 
+layout::AppendPush ScarfPipeline::append_push(uint32_t first, uint32_t count, int64_t t_first) const {
+  const GridAxis& x = geometry_.x;
+  const GridAxis& y = geometry_.y;
+  const auto inverse = [](int32_t cell) { return ceil_div(uint32_t{1} << 31, static_cast<uint32_t>(cell)); };
+  layout::AppendPush push{};
+  push.first_event = first;
+  push.events = count;
+  push.width = x.size;
+  push.height = y.size;
+  push.grid_x = x.grid;
+  push.grid_y = y.grid;
+  push.field_x = x.field_begin(0);
+  push.field_y = y.field_begin(0);
+  push.cell_x = x.cell;
+  push.cell_y = y.cell;
+  push.overlap_x = x.margin_lo + x.margin_hi;
+  push.overlap_y = y.margin_lo + y.margin_hi;
+  push.inverse_x = inverse(x.cell);
+  push.inverse_y = inverse(y.cell);
+  push.capacity = geometry_.capacity;
+  push.t_first_low = low_word(t_first);
+  push.t_first_high = high_word(t_first);
+  push.parts_y = plan_.append.parts();
+  push.parts_shift = plan_.append.parts_shift;
+  push.bands = plan_.append.bands;
+  push.band_rows = plan_.append.band_rows;
+  push.unused_slot = static_cast<uint32_t>(ring_slots(geometry_));
+  push.margin_lo_x = x.margin_lo;
+  push.margin_lo_y = y.margin_lo;
+  push.row_bytes = 4 * plan_.cell_row_words;
+  push.ring_bytes = layout::kSlotsPerGroup * plan_.position_groups;
+  push.unused_position = static_cast<uint32_t>(position_bytes());
+  return push;
+}
+
+void ScarfPipeline::record_settle(Commands& commands) {
+  const layout::SettlePush push = {plan_.patches};
+  commands.dispatch(bound_settle_, plan_.patches, layout::kLinearGroup, push);
+  commands.barrier();
+  commands.mark("settle");
+  unsettled_laps_ = 0;
+}
+
+void ScarfPipeline::count_laps(Commands& commands, uint32_t events) {
+  const uint64_t most = ceil_div(events, static_cast<uint32_t>(geometry_.capacity));
+  if (unsettled_laps_ + most > kMostHeadLaps) record_settle(commands);
+  unsettled_laps_ += most;
+}
+
+void ScarfPipeline::record_append(Commands& commands, const PushKernels& kernels,
+                                  const layout::AppendPush& push) {
+  layout::AppendPush segment = push;
+  for (uint32_t begin = 0; begin < push.events; begin += plan_.append.dispatch_events) {
+    segment.first_event = push.first_event + begin;
+    segment.events = std::min(plan_.append.dispatch_events, push.events - begin);
+    count_laps(commands, segment.events);
+    commands.dispatch(kernels.append, plan_.append.invocations(), plan_.append.lanes, segment);
+    commands.barrier();
+  }
+  commands.mark("append");
+}
+
 void ScarfPipeline::record_push(Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
                                 const StreamFacts& facts) {
   const auto& kernels = static_cast<const PushKernels&>(binding);
+  if (plan_.appended(count)) {
+    record_append(commands, kernels, append_push(first, count, facts.first.value_or(0)));
+    return;
+  }
   const layout::BatchPush push = batch_push(first, count, facts.first.value_or(0));
   record_count(commands, kernels, push);
   record_sum(commands, push);

@@ -29,6 +29,7 @@ struct ExtractTarget : QueryTarget {
 struct PushKernels : EventBinding {
   vulkan::BoundKernel count;
   vulkan::BoundKernel place;
+  vulkan::BoundKernel append;
 };
 
 class ScarfPipeline : public Pipeline {
@@ -40,7 +41,7 @@ class ScarfPipeline : public Pipeline {
   uint32_t submission_events() const override { return plan_.submission_events; }
   Result<std::unique_ptr<EventBinding>> bind_events(const vulkan::Buffer& events) override;
   void record_reset(vulkan::Commands& commands) override;
-  /// count, sum, scan, prune (where it pays), place.
+  /// count, sum, scan, prune (where it pays), place; or append.
   void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
                    const StreamFacts& facts) override;
   uint64_t memory_bytes() const override { return bytes_; }
@@ -53,10 +54,13 @@ class ScarfPipeline : public Pipeline {
   void record_count(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
   void record_sum(vulkan::Commands& commands, const layout::BatchPush& push) const;
-  void record_scan(vulkan::Commands& commands, const layout::BatchPush& push) const;
+  void record_scan(vulkan::Commands& commands, const layout::BatchPush& push);
   void record_prune(vulkan::Commands& commands, const layout::BatchPush& push) const;
   void record_place(vulkan::Commands& commands, const PushKernels& kernels,
                     const layout::BatchPush& push) const;
+  layout::AppendPush append_push(uint32_t first, uint32_t count, int64_t t_first) const;
+  void record_append(vulkan::Commands& commands, const PushKernels& kernels, const layout::AppendPush& push);
+  void record_settle(vulkan::Commands& commands);
   /// Images of the state, each in the buffer that is returned: counts (render) and brightness (paint; or
   /// render and tone). PolarityMode::difference is for counts only.
   const vulkan::Buffer& record_counts(vulkan::Commands& commands, PolarityMode mode) const;
@@ -70,11 +74,11 @@ class ScarfPipeline : public Pipeline {
   uint64_t position_bytes() const;
   const vulkan::Buffer& class_counts() const { return class_counts_; }
   const vulkan::Buffer& positions() const { return positions_; }
-  const vulkan::Buffer& dirty() const { return dirty_; }
+  const vulkan::Buffer& painted_heads() const { return painted_heads_; }
   const vulkan::Buffer& table() const { return table_; }
   const vulkan::Buffer& alive() const { return alive_; }
   const vulkan::Buffer& heads() const { return heads_; }
-  const vulkan::Buffer& totals() const { return totals_; }
+  const vulkan::Buffer& laps() const { return laps_; }
   const vulkan::Buffer& slots() const { return slots_; }
   const vulkan::Buffer& picture() const { return tone_.picture(); }
   const Plan& plan() const { return plan_; }
@@ -83,20 +87,23 @@ class ScarfPipeline : public Pipeline {
   ScarfPipeline(vulkan::Device& device, const Geometry& geometry, const Plan& plan)
       : device_(device), geometry_(geometry), plan_(plan) {}
   void build(PipelineBuilder& builder, const Levels& levels);
+  /// Before events are appended, at most kMostAppendEvents: makes room in the heads for their laps.
+  void count_laps(vulkan::Commands& commands, uint32_t events);
   uint64_t pixels(PolarityMode mode) const;
 
   vulkan::Device& device_;
   const Geometry geometry_;
   const Plan plan_;
   uint64_t bytes_ = 0;
+  uint64_t unsettled_laps_ = 0;  // at most so many in the head of a patch
   // Buffers before kernels before bindings: each is destroyed after what uses it.
-  vulkan::Buffer ranges_, pixel_classes_, patch_classes_, class_counts_, table_, alive_, heads_, totals_,
-      slots_, dirty_, counts_, painted_, positions_, cursors_;
+  vulkan::Buffer ranges_, pixel_classes_, patch_classes_, class_counts_, table_, alive_, heads_, laps_,
+      painted_heads_, slots_, counts_, painted_, positions_, cursors_;
   Tone tone_;
-  vulkan::Kernel clear_, count_, sum_, scan_, prune_, place_, render_, paint_, extract_count_, extract_scan_,
-      extract_write_;
-  vulkan::BoundKernel bound_clear_, bound_sum_, bound_scan_, bound_prune_, bound_render_, bound_paint_,
-      bound_extract_count_;
+  vulkan::Kernel clear_, settle_, count_, sum_, scan_, prune_, place_, append_, render_, paint_,
+      extract_count_, extract_scan_, extract_write_;
+  vulkan::BoundKernel bound_clear_, bound_settle_, bound_sum_, bound_scan_, bound_prune_, bound_render_,
+      bound_paint_, bound_extract_count_;
   Tone::Source bound_tone_;
 };
 

@@ -38,7 +38,7 @@ constexpr uint32_t kLeastEventsPerCountCpu = 2;
 constexpr uint32_t kLongChunkCpu = 5'000;
 constexpr uint32_t kLeastChunkEventsGpu = 64;
 
-constexpr uint64_t kPruneHitsPerSlot = 4;
+constexpr uint64_t kPruneHitsPerSlot = 3;
 
 // Rings that are written in no order: of each one line of 64 bytes of slots and one of positions is in use. A
 // cache of a CPU's core holds about so many.
@@ -53,15 +53,50 @@ bool few(std::span<const uint8_t> levels) {
 }
 
 constexpr uint32_t kMaxTeamLanes = 32;  // see team_ballot() in shaders/team.glsl
+// Teams that take events together compare each with each.
+constexpr uint32_t kMostTeams = 4;
+
+// A loop costs its trips and one for its entry. Where a lane owns many patches of an event, it loops over
+// rows and columns of them.
+uint32_t trips_per_event(uint32_t lane_columns, uint32_t lane_rows) {
+  if (lane_columns == 1 && lane_rows <= 2) return 0;
+  return lane_rows * (1 + lane_columns + 1) + 1;
+}
+
+AppendPlan make_append_plan(const Plan& plan, const Geometry& geometry, const vulkan::Limits& limits,
+                            const GpuOptions& options) {
+  AppendPlan a;
+  a.lanes = limits.subgroup_size;
+  // Each core has rows of its own of the patches of most events.
+  a.parts_shift = std::bit_width(std::min(limits.cores, plan.most_rows)) - 1;
+  const uint32_t lanes = std::min(a.lanes, kMaxTeamLanes);
+  const uint32_t event_rows = ceil_div(plan.most_rows, a.parts());
+  a.team_x = std::min(std::bit_ceil(plan.most_columns), lanes);
+  a.team_y = std::min(std::bit_ceil(event_rows), lanes / a.team_x);
+  a.lane_columns = ceil_div(plan.most_columns, a.team_x);
+  a.lane_rows = ceil_div(event_rows, a.team_y);
+  // Lanes of several teams see each other's heads because the lanes of a CPU device go in step.
+  if (limits.cpu) a.teams = std::min({lanes / (a.team_x * a.team_y), kMostTeams, plan.capacity});
+  const uint32_t rows = ceil_div(static_cast<uint32_t>(geometry.y.grid), a.parts());
+  const uint32_t wanted_bands = ceil_div(plan.patches / a.parts(), kRingsInCache);
+  a.band_rows = ceil_div(rows, std::min(rows, options.bands != 0 ? options.bands : wanted_bands));
+  a.bands = ceil_div(rows, a.band_rows);
+  const uint64_t blocks = (limits.loop_trips - 8) / trips_per_block(a);
+  a.dispatch_events = static_cast<uint32_t>(std::min<uint64_t>(blocks * lanes, kMostAppendEvents));
+  return a;
+}
 
 }  // namespace
 
 uint32_t trips_per_block(const Plan& plan) {
-  // A loop costs its trips and one for its entry: blocks, the search for one that is walked, events, and
-  // where a lane owns many patches of an event, rows and columns of them.
-  uint32_t rows = 0;
-  if (plan.lane_columns > 1 || plan.lane_rows > 2) rows = plan.lane_rows * (1 + plan.lane_columns + 1) + 1;
-  return 1 + 2 + plan.team_lanes() * (1 + rows) + 1;
+  // Blocks, the search for one that is walked, events.
+  return 1 + 2 + plan.team_lanes() * (1 + trips_per_event(plan.lane_columns, plan.lane_rows)) + 1;
+}
+
+uint32_t trips_per_block(const AppendPlan& plan) {
+  // Blocks, steps, and for each the other teams twice.
+  const uint32_t steps = ceil_div(std::min(plan.lanes, kMaxTeamLanes), plan.teams);
+  return 1 + steps * (1 + 2 * plan.teams + trips_per_event(plan.lane_columns, plan.lane_rows)) + 1;
 }
 
 // As many for each core, and no lane of a core without work: bands of one chunk are work for several.
@@ -71,16 +106,19 @@ uint32_t Plan::worthwhile_chunks(uint32_t events) const {
   return std::min(target_chunks, std::max(evenly, ceil_div(teams, bands)));
 }
 
+// Where most patches get several times their capacity.
+bool Plan::prunes(uint32_t events) const {
+  const uint64_t hits = uint64_t{events} * most_columns * most_rows;
+  return hits >= kPruneHitsPerSlot * patches * capacity;
+}
+
 Chunking Plan::cut(uint32_t events) const {
   if (events == 0) return {};
   uint32_t chunk =
       forced_chunk_events != 0 ? forced_chunk_events : ceil_div(events, worthwhile_chunks(events));
   chunk = std::clamp(chunk, ceil_div(events, max_chunks), max_chunk_events);
-  // Where most patches get several times their capacity, most hits are overwritten within the batch.
-  const uint64_t hits = uint64_t{events} * most_columns * most_rows;
-  const bool prune = hits >= kPruneHitsPerSlot * patches * capacity;
   const uint32_t chunks = ceil_div(events, chunk);
-  return {chunk, chunks, std::min(stripes, chunks), prune};
+  return {chunk, chunks, std::min(stripes, chunks), prunes(events)};
 }
 
 Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels,
@@ -119,7 +157,8 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
   const uint32_t blocks = (limits.loop_trips - 8) / trips_per_block(plan);
   plan.max_chunk_events = static_cast<uint32_t>(
       std::min<uint64_t>(layout::kMaxChunkEvents, uint64_t{blocks} * plan.team_lanes()));
-  const uint64_t table_bytes = std::min(limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range);
+  const uint64_t table_bytes = std::min(
+      {limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range, limits.texels * sizeof(uint32_t)});
   const uint64_t words = std::max(plan.patches, plan.class_words());
   const uint64_t chunks_that_fit = table_bytes / (words * sizeof(uint32_t));
   const uint32_t scan_budget = (limits.loop_trips - 8) / 2 - 1;  // the scan walks the chunks twice
@@ -138,6 +177,12 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
   const uint32_t wanted = scarf::submission_events(options, limits);
   plan.submission_events =
       static_cast<uint32_t>(std::min<uint64_t>(wanted, uint64_t{plan.max_chunks} * longest));
+  plan.table_image = limits.cpu;
+  plan.append = make_append_plan(plan, geometry, limits, options);
+  plan.always_appends = options.placing == GpuOptions::Placing::appended;
+  // All cores have work, and the same.
+  plan.appends = options.placing == GpuOptions::Placing::automatic && options.chunk_events == 0 &&
+                 limits.cpu && limits.cores == plan.append.parts();
   // No more room than the longest submission can use.
   plan.max_chunks = std::min(plan.max_chunks, std::max(plan.worthwhile_chunks(plan.submission_events),
                                                        ceil_div(plan.submission_events, longest)));

@@ -404,6 +404,7 @@ Result<void> Device::choose() {
   const VkPhysicalDeviceLimits& l = c.properties.limits;
   const uint32_t timestamp_bits = c.families[c.compute_family].timestampValidBits;
   limits_.storage_range = l.maxStorageBufferRange;
+  limits_.texels = l.maxTexelBufferElements;
   limits_.workgroups = l.maxComputeWorkGroupCount[0];
   limits_.subgroup_size = c.subgroup_size;
   limits_.loop_trips = quirks_of(c.driver).loop_trips;

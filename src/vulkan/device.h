@@ -16,6 +16,7 @@ namespace scarf::vulkan {
 /// What the planners and the memory code need to know about a device.
 struct Limits {
   uint64_t storage_range = 0;  ///< bytes of one buffer binding
+  uint64_t texels = 0;         ///< of one texel buffer
   uint32_t workgroups = 0;     ///< per axis of a dispatch
   uint32_t subgroup_size = 0;  ///< required of kernels that ask for whole subgroups
   uint32_t loop_trips = 0;     ///< see Quirks

@@ -1,25 +1,62 @@
 #include "vulkan/kernel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/text.h"
 
 namespace scarf::vulkan {
+namespace {
+
+VkDescriptorType type_of(View view) {
+  switch (view) {
+    case View::vectors:
+    case View::words:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case View::image:
+      return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    case View::storage:
+      break;
+  }
+  return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+Result<VkBufferView> create_view(const Device& device, const Buffer& buffer, View view) {
+  const uint64_t texels = buffer.size() / (view == View::vectors ? 16 : 4);
+  if (texels > device.limits().texels) {
+    return Error{ErrorCode::out_of_memory,
+                 text("a buffer of ", texels, " texels is needed, but those of device ", device.info().name,
+                      " hold at most ", device.limits().texels,
+                      "; use a smaller sensor, capacity or grid, or another device")};
+  }
+  VkBufferViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+  info.buffer = buffer.handle();
+  info.format = view == View::vectors ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT;
+  info.range = buffer.size();
+  VkBufferView handle = VK_NULL_HANDLE;
+  const VkResult result = device.calls().CreateBufferView(device.handle(), &info, nullptr, &handle);
+  if (auto r = device.check(result, "CreateBufferView"); !r) return r.error();
+  return handle;
+}
+
+}  // namespace
 
 Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<const uint32_t> spirv,
-                              uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants,
-                              bool whole_subgroups) {
+                              const Bindings& bindings, uint32_t push_bytes,
+                              std::span<const uint32_t> constants, bool whole_subgroups) {
   const Table& calls = device.calls();
   Kernel k;
   k.device_ = &device;
+  k.bindings_ = bindings;
 
-  std::vector<VkDescriptorSetLayoutBinding> slots(bindings);
-  for (uint32_t i = 0; i < bindings; ++i) {
-    slots[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  std::vector<VkDescriptorSetLayoutBinding> slots(bindings.count());
+  for (uint32_t i = 0; i < bindings.count(); ++i) {
+    slots[i] = {i, type_of(bindings[i]), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   }
   VkDescriptorSetLayoutCreateInfo set_info{};
   set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  set_info.bindingCount = bindings;
+  set_info.bindingCount = bindings.count();
   set_info.pBindings = slots.data();
   if (auto r =
           device.check(calls.CreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &k.set_layout_),
@@ -89,6 +126,7 @@ Kernel::~Kernel() {
 
 void Kernel::swap(Kernel& other) noexcept {
   std::swap(device_, other.device_);
+  std::swap(bindings_, other.bindings_);
   std::swap(set_layout_, other.set_layout_);
   std::swap(layout_, other.layout_);
   std::swap(pipeline_, other.pipeline_);
@@ -101,12 +139,15 @@ Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kern
   b.device_ = &device;
   b.kernel_ = &kernel;
   const auto count = static_cast<uint32_t>(buffers.size());
-  const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count};
+  // At most so many of each; a size of zero is not legal.
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
+                                        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count},
+                                        {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, count}};
   VkDescriptorPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   pool_info.maxSets = 1;
-  pool_info.poolSizeCount = 1;
-  pool_info.pPoolSizes = &size;
+  pool_info.poolSizeCount = 3;
+  pool_info.pPoolSizes = sizes;
   if (auto r = device.check(calls.CreateDescriptorPool(device.handle(), &pool_info, nullptr, &b.pool_),
                             "CreateDescriptorPool");
       !r) {
@@ -125,7 +166,8 @@ Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kern
   }
   std::vector<VkDescriptorBufferInfo> infos;
   std::vector<VkWriteDescriptorSet> writes;
-  infos.reserve(count);  // the writes point into it
+  infos.reserve(count);  // the writes point into both
+  b.views_.reserve(count);
   for (const Buffer* buffer : buffers) {
     // The size of a Buffer excludes its guard words, so a shader cannot reach them by accident unnoticed.
     infos.push_back({buffer->handle(), 0, buffer->size()});
@@ -134,8 +176,15 @@ Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kern
     write.dstSet = b.set_;
     write.dstBinding = static_cast<uint32_t>(writes.size());
     write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    const View view = kernel.bindings()[write.dstBinding];
+    write.descriptorType = type_of(view);
     write.pBufferInfo = &infos.back();
+    if (view != View::storage) {
+      auto handle = create_view(device, *buffer, view);
+      if (!handle) return handle.error();
+      b.views_.push_back(*handle);
+      write.pTexelBufferView = &b.views_.back();
+    }
     writes.push_back(write);
   }
   calls.UpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
@@ -156,6 +205,7 @@ void BoundKernel::rebind(uint32_t binding, const Buffer& buffer) {
 
 BoundKernel::~BoundKernel() {
   if (pool_ != VK_NULL_HANDLE) device_->calls().DestroyDescriptorPool(device_->handle(), pool_, nullptr);
+  for (VkBufferView view : views_) device_->calls().DestroyBufferView(device_->handle(), view, nullptr);
 }
 
 void BoundKernel::swap(BoundKernel& other) noexcept {
@@ -163,6 +213,7 @@ void BoundKernel::swap(BoundKernel& other) noexcept {
   std::swap(kernel_, other.kernel_);
   std::swap(pool_, other.pool_);
   std::swap(set_, other.set_);
+  std::swap(views_, other.views_);
 }
 
 }  // namespace scarf::vulkan

@@ -11,7 +11,30 @@
 
 namespace scarf::vulkan {
 
-/// A compute pipeline over storage buffers 0 .. bindings-1 of set 0 and one push-constant block.
+/// How a kernel sees a buffer. llvmpipe reads words through a texel buffer in a few instructions for all
+/// lanes, and those of a storage buffer in a loop over the lanes.
+enum class View {
+  storage,  ///< a storage buffer
+  vectors,  ///< a uniform texel buffer (usamplerBuffer) of four words each
+  words,    ///< a uniform texel buffer of one word each
+  image,    ///< a storage texel buffer (uimageBuffer, r32ui), read and written
+};
+
+/// The bindings 0, 1, ... of a kernel.
+class Bindings {
+ public:
+  Bindings(uint32_t storage_buffers)  // NOLINT(google-explicit-constructor)
+      : views_(storage_buffers, View::storage) {}
+  Bindings(std::initializer_list<View> views) : views_(views) {}
+
+  uint32_t count() const { return static_cast<uint32_t>(views_.size()); }
+  View operator[](uint32_t binding) const { return views_[binding]; }
+
+ private:
+  std::vector<View> views_;
+};
+
+/// A compute pipeline over buffers of set 0 and one push-constant block.
 class Kernel {
  public:
   Kernel() = default;
@@ -25,17 +48,19 @@ class Kernel {
   /// `constants` become specialization constants 0, 1, ... With `whole_subgroups` constant 0 is the local
   /// size, a multiple of Limits::subgroup_size, and every subgroup has that size.
   static Result<Kernel> create(const Device& device, const char* name, std::span<const uint32_t> spirv,
-                               uint32_t bindings, uint32_t push_bytes, std::span<const uint32_t> constants,
-                               bool whole_subgroups = false);
+                               const Bindings& bindings, uint32_t push_bytes,
+                               std::span<const uint32_t> constants, bool whole_subgroups = false);
 
   VkPipeline pipeline() const { return pipeline_; }
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSetLayout set_layout() const { return set_layout_; }
+  const Bindings& bindings() const { return bindings_; }
 
  private:
   void swap(Kernel& other) noexcept;
 
   const Device* device_ = nullptr;
+  Bindings bindings_ = 0;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
@@ -55,7 +80,7 @@ class BoundKernel {
   static Result<BoundKernel> create(const Device& device, const Kernel& kernel,
                                     std::initializer_list<const Buffer*> buffers);
 
-  /// Binds another buffer in the place of one; the kernel must be out of use on the device.
+  /// Binds another storage buffer in the place of one; the kernel must be out of use on the device.
   void rebind(uint32_t binding, const Buffer& buffer);
 
   const Kernel& kernel() const { return *kernel_; }
@@ -68,6 +93,7 @@ class BoundKernel {
   const Kernel* kernel_ = nullptr;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
+  std::vector<VkBufferView> views_;
 };
 
 }  // namespace scarf::vulkan

@@ -19,7 +19,7 @@
 
 #define SCARF_VK_DEVICE_CALLS(CALL) \
   CALL(DestroyDevice) CALL(GetDeviceQueue) CALL(DeviceWaitIdle) \
-  CALL(CreateBuffer) CALL(DestroyBuffer) CALL(GetBufferMemoryRequirements) CALL(AllocateMemory) CALL(FreeMemory) \
+  CALL(CreateBuffer) CALL(DestroyBuffer) CALL(CreateBufferView) CALL(DestroyBufferView) CALL(GetBufferMemoryRequirements) CALL(AllocateMemory) CALL(FreeMemory) \
   CALL(BindBufferMemory) CALL(MapMemory) \
   CALL(CreateShaderModule) CALL(DestroyShaderModule) CALL(CreateDescriptorSetLayout) \
   CALL(DestroyDescriptorSetLayout) CALL(CreatePipelineLayout) CALL(DestroyPipelineLayout) \

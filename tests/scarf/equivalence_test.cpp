@@ -61,7 +61,27 @@ TEST_F(Equivalence, RandomGeometries) {
     options.chunk_events = trial % 2 == 0 ? 0 : 1 + static_cast<uint32_t>(random() % 700);
     options.submission_events = trial % 3 == 0 ? 1 + static_cast<uint32_t>(random() % 3000) : 0;
     options.bands = trial % 5 == 0 ? 0 : 1 + static_cast<uint32_t>(random() % 6);
+    options.placing = trial % 4 < 2 ? GpuOptions::Placing::appended : GpuOptions::Placing::automatic;
     ASSERT_NO_FATAL_FAILURE(compare(geometry, make_stream(spread, sensor, 3000, random()), random, options));
+  }
+}
+
+TEST_F(Equivalence, HeadsOfShortRingsDoNotOverflow) {
+  // Every event fills all rings, of one slot each: 150,000 laps of a head that holds 65,535.
+  std::mt19937 random(5);
+  const SensorSize sensor = {12, 9};
+  const Geometry geometry = *checked_geometry({{12, 4, 0, 3, 8, 8}, {9, 3, 0, 3, 6, 6}, 1});
+  for (const auto placing : {GpuOptions::Placing::appended, GpuOptions::Placing::chunked}) {
+    const GpuOptions options = {.placing = placing};
+    auto device = device_scarf(geometry, options);
+    auto reference = reference_scarf(geometry);
+    for (uint32_t batch = 0; batch < 3; ++batch) {
+      const auto events = make_stream(Spread::uniform, sensor, 50'000, batch, batch * 1'000'000);
+      ASSERT_TRUE(device->push(events));
+      ASSERT_TRUE(reference->push(events));
+      ASSERT_NO_FATAL_FAILURE(test::expect_same(*device, *reference));
+    }
+    EXPECT_GT(test::value_of(device->snapshot()).totals[4], 65'536u);
   }
 }
 
@@ -176,6 +196,7 @@ TEST_P(UploadEquivalence, CutsSlotsAndChunksNeverChangeAByte) {
         options.chunk_events = chunk_events;
         options.submission_events = submission;
         options.bands = slots;
+        options.placing = chunk_events == 0 ? GpuOptions::Placing::appended : GpuOptions::Placing::automatic;
         auto device = device_scarf(geometry, options);
         for (size_t done = 0; done < events.size();) {
           const size_t n = std::min<size_t>(events.size() - done, 1 + random() % 6000);

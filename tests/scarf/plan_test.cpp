@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "core/ceil_div.h"
 #include "shaders/layout.h"
 #include "tests/support/streams.h"
 
@@ -13,6 +14,7 @@ namespace {
 vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) {
   vulkan::Limits limits;
   limits.storage_range = 128u << 20;
+  limits.texels = 1u << 27;
   limits.workgroups = 65'535;
   limits.subgroup_size = subgroup_size;
   limits.loop_trips = loop_trips;
@@ -64,6 +66,43 @@ TEST(Plan, StaysWithinTheLoopBudgetForEveryGeometryAndBatch) {
       }
     }
   }
+}
+
+TEST(Plan, AppendsWithinTheLoopBudget) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Geometry g = test::random_geometry({64 + trial, 48 + trial}, random);
+    for (uint32_t subgroup : {1u, 4u, 8u, 32u, 64u}) {
+      vulkan::Limits limits = limits_of(subgroup, 60'000, trial % 2 == 0);
+      limits.cores = 1 + trial % 9;
+      const AppendPlan a = make_plan(g, kLevels, limits, {})->append;
+      EXPECT_EQ(a.lanes, subgroup);
+      EXPECT_LE(a.team_x * a.team_y * a.teams, subgroup);
+      EXPECT_LE(a.teams, static_cast<uint32_t>(g.capacity)) << "slots of one step must differ";
+      EXPECT_LE(a.parts(), limits.cores);
+      EXPECT_GE(uint64_t{a.bands} * a.band_rows * a.parts(), static_cast<uint64_t>(g.y.grid));
+      const uint64_t blocks = ceil_div(a.dispatch_events, std::min(subgroup, 32u));
+      EXPECT_GT(blocks, 0u);
+      EXPECT_LE(blocks * trips_per_block(a) + 1, limits.loop_trips);
+      EXPECT_LE(a.dispatch_events, kMostAppendEvents);
+    }
+  }
+}
+
+TEST(Plan, AppendsOnFewCoresWhereLittleIsOverwritten) {
+  const Geometry small = *make_geometry(Preset::paper, {240, 180});
+  vulkan::Limits cpu = limits_of(8, 60'000, true);
+  const auto appended = [&](const vulkan::Limits& limits, uint32_t events, const GpuOptions& options = {}) {
+    return make_plan(small, kLevels, limits, options)->appended(events);
+  };
+  EXPECT_TRUE(appended(cpu, 10'000));
+  EXPECT_FALSE(appended(cpu, 200'000)) << "pruned";
+  EXPECT_FALSE(appended(cpu, 10'000, {.chunk_events = 100}));
+  EXPECT_FALSE(appended(cpu, 10'000, {.placing = GpuOptions::Placing::chunked}));
+  EXPECT_TRUE(appended(cpu, 200'000, {.placing = GpuOptions::Placing::appended}));
+  cpu.cores = 16;
+  EXPECT_FALSE(appended(cpu, 10'000)) << "parts for some of the cores only";
+  EXPECT_FALSE(appended(limits_of(32, UINT32_MAX, false), 10'000));
 }
 
 TEST(Plan, EveryPatchOfAnEventHasOneLane) {

@@ -33,10 +33,10 @@ class Stages : public test::DeviceTest {
     run([&] { pipeline_->record_reset(commands_); });
     ranges_ = patch_ranges(geometry);
     heads_.assign(plan_.patches, 0);
-    totals_.assign(plan_.patches, 0);
+    laps_.assign(plan_.patches, 0);
     slots_.assign(geometry.patches() * geometry.capacity, kEmptySlot);
     positions_.assign(pipeline_->position_bytes(), layout::kNotShown);
-    dirty_.assign(plan_.patches, 0);
+    painted_heads_.assign(plan_.patches, 0);
     picture_.assign(size_t{1} * geometry.x.size * geometry.y.size, 0);
     classes_.clear();
     patch_classes_.clear();
@@ -76,6 +76,39 @@ class Stages : public test::DeviceTest {
     const auto binding = pipeline_->bind_events(*staging);
     ASSERT_TRUE(binding);
     const auto& kernels = static_cast<const PushKernels&>(**binding);
+    if (plan_.appended(static_cast<uint32_t>(events.size()))) {
+      ASSERT_NO_FATAL_FAILURE(compare_appended(events, kernels, t_first));
+    } else {
+      ASSERT_NO_FATAL_FAILURE(compare_chunked(events, kernels, t_first));
+    }
+    ASSERT_EQ(read<uint64_t>(pipeline_->slots(), slots_.size()), slots_);
+    if (!plan_.paints) return;
+    ASSERT_EQ(read<uint8_t>(pipeline_->positions(), positions_.size()), positions_);
+    ++painted_;
+    // Not after every batch, so that marks of several batches meet.
+    if (painted_ % 2 == 0) compare_picture();
+  }
+
+  void compare_heads() {
+    ASSERT_EQ(read<uint32_t>(pipeline_->heads(), plan_.patches), heads_);
+    ASSERT_EQ(read<uint64_t>(pipeline_->laps(), plan_.patches), laps_);
+    ASSERT_EQ(read<uint32_t>(pipeline_->painted_heads(), plan_.patches), painted_heads_);
+  }
+
+  void compare_appended(const std::vector<Event>& events, const PushKernels& kernels, int64_t t_first) {
+    const auto push = pipeline_->append_push(0, static_cast<uint32_t>(events.size()), t_first);
+    stages::scarf_append(events, ranges_, heads_, slots_, positions_, push);
+    run([&] { pipeline_->record_append(commands_, kernels, push); });
+    ASSERT_NO_FATAL_FAILURE(compare_heads()) << "append";
+    ++appended_;
+    if (appended_ % 3 == 0) {
+      stages::scarf_settle(heads_, laps_, painted_heads_);
+      run([&] { pipeline_->record_settle(commands_); });
+      ASSERT_NO_FATAL_FAILURE(compare_heads()) << "settle";
+    }
+  }
+
+  void compare_chunked(const std::vector<Event>& events, const PushKernels& kernels, int64_t t_first) {
     const layout::BatchPush push = pipeline_->batch_push(0, static_cast<uint32_t>(events.size()), t_first);
 
     std::vector<uint32_t> class_counts(size_t{push.chunks} * push.class_words);
@@ -91,13 +124,11 @@ class Stages : public test::DeviceTest {
     ASSERT_EQ(read<uint32_t>(pipeline_->class_counts(), class_counts.size()), class_counts) << "sum";
 
     std::vector<uint32_t> table(size_t{push.chunks} * push.patches);
-    stages::scarf_scan(class_counts, patch_classes_, table, heads_, totals_, dirty_,
+    stages::scarf_scan(class_counts, patch_classes_, table, heads_, laps_, painted_heads_,
                        {push.patches, push.chunks, push.capacity, push.grid_x, columns, push.class_words});
     run([&] { pipeline_->record_scan(commands_, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "scan";
-    ASSERT_EQ(read<uint32_t>(pipeline_->heads(), plan_.patches), heads_) << "scan";
-    ASSERT_EQ(read<uint64_t>(pipeline_->totals(), plan_.patches), totals_) << "scan";
-    ASSERT_EQ(read<uint32_t>(pipeline_->dirty(), plan_.patches), dirty_) << "scan";
+    ASSERT_NO_FATAL_FAILURE(compare_heads()) << "scan";
 
     if (push.prune != 0) {
       std::vector<uint32_t> alive(table.size());
@@ -111,20 +142,14 @@ class Stages : public test::DeviceTest {
     stages::scarf_place(events, ranges_, table, slots_, positions_, push);
     run([&] { pipeline_->record_place(commands_, kernels, push); });
     ASSERT_EQ(read_table(push.chunks), table) << "place";
-    ASSERT_EQ(read<uint64_t>(pipeline_->slots(), slots_.size()), slots_) << "place";
-    if (!plan_.paints) return;
-    ASSERT_EQ(read<uint8_t>(pipeline_->positions(), positions_.size()), positions_) << "place";
-    ++painted_;
-    // Not after every batch, so that marks of several batches meet.
-    if (painted_ % 2 == 0) compare_picture();
   }
 
   void compare_picture() {
-    stages::scarf_paint(positions_, dirty_, picture_, pipeline_->paint_push());
+    stages::scarf_paint(positions_, heads_, painted_heads_, picture_, pipeline_->paint_push());
     const Buffer* result = nullptr;
     run([&] { result = &pipeline_->record_u8(commands_, PolarityMode::merged); });
     ASSERT_EQ(read<uint8_t>(*result, picture_.size()), picture_) << "paint";
-    ASSERT_EQ(read<uint32_t>(pipeline_->dirty(), plan_.patches), dirty_) << "paint";
+    ASSERT_NO_FATAL_FAILURE(compare_heads()) << "paint";
   }
 
   void compare_images() {
@@ -135,7 +160,7 @@ class Stages : public test::DeviceTest {
       push.mode = mode == PolarityMode::separate     ? layout::kModeSeparate
                   : mode == PolarityMode::difference ? layout::kModeDifference
                                                      : layout::kModeMerged;
-      stages::scarf_render(slots_, totals_, counts, push);
+      stages::scarf_render(slots_, heads_, laps_, counts, push);
       const Buffer* result = nullptr;
       run([&] { result = &pipeline_->record_counts(commands_, mode); });
       ASSERT_EQ(read<int32_t>(*result, counts.size()), counts) << "render";
@@ -158,10 +183,10 @@ class Stages : public test::DeviceTest {
     push.t_first_low = static_cast<uint32_t>(t_first);
     push.t_first_high = static_cast<uint32_t>(t_first >> 32);
     std::vector<uint32_t> cursors(count);
-    stages::scarf_extract_count(slots_, totals_, cursors, push);
+    stages::scarf_extract_count(slots_, heads_, laps_, cursors, push);
     const uint32_t total = stages::scarf_extract_scan(cursors);
     std::vector<Event> events(total);
-    stages::scarf_extract_write(slots_, totals_, heads_, cursors, events, push);
+    stages::scarf_extract_write(slots_, heads_, laps_, cursors, events, push);
     run([&] { pipeline_->record_extract(commands_, *target, first, count, active_only, t_first); });
     ASSERT_EQ(*target->total.mapped_as<uint32_t>(), total);
     for (uint32_t i = 0; i < total; ++i) {
@@ -176,24 +201,27 @@ class Stages : public test::DeviceTest {
   Levels levels_;
   int pruned_ = 0;  // batches
   int painted_ = 0;
+  int appended_ = 0;
   Plan plan_;
   std::unique_ptr<ScarfPipeline> pipeline_;
   Commands commands_;
-  std::vector<uint32_t> ranges_, classes_, patch_classes_, heads_, dirty_;
-  std::vector<uint64_t> totals_, slots_;
+  std::vector<uint32_t> ranges_, classes_, patch_classes_, heads_, painted_heads_;
+  std::vector<uint64_t> laps_, slots_;
   std::vector<uint8_t> positions_, picture_;
 };
 
 TEST_F(Stages, EqualTheirTwins) {
   std::mt19937 random(21);
-  for (int trial = 0; trial < 12; ++trial) {
-    const SensorSize sensor = {40 + 9 * trial, 70 - 4 * trial};
-    const Geometry geometry = trial < 2 ? *make_geometry(trial == 0 ? Preset::paper : Preset::light, sensor)
-                                        : test::random_geometry(sensor, random);
+  for (int trial = 0; trial < 18; ++trial) {
+    const SensorSize sensor = {40 + 9 * trial, 70 - 3 * trial};
+    const Geometry geometry = trial % 12 < 2
+                                  ? *make_geometry(trial % 12 == 0 ? Preset::paper : Preset::light, sensor)
+                                  : test::random_geometry(sensor, random);
     SCOPED_TRACE(to_string(geometry));
     GpuOptions options;
     options.chunk_events = trial % 2 == 0 ? 0 : 100;
     options.bands = trial % 4;
+    options.placing = trial < 12 ? GpuOptions::Placing::chunked : GpuOptions::Placing::appended;
     ASSERT_NO_FATAL_FAILURE(use(geometry, options));
     const test::Spread spread = test::kSpreads[trial % std::size(test::kSpreads)];
     constexpr int64_t kFirst = -123'456'789'012;
@@ -208,8 +236,9 @@ TEST_F(Stages, EqualTheirTwins) {
   }
   EXPECT_GT(pruned_, 3);
   EXPECT_LT(pruned_, 33);
+  EXPECT_EQ(appended_, 18);
   EXPECT_GT(painted_, 5);
-  EXPECT_LT(painted_, 36);
+  EXPECT_LT(painted_, 54);
 }
 
 }  // namespace

@@ -180,7 +180,8 @@ TEST_F(Stream, AStateBeyondTheDeviceIsRefusedByName) {
 }
 
 TEST_F(Stream, StagesAreTimedAndMemoryIsCounted) {
-  auto device = device_scarf(*make_geometry(Preset::paper, {80, 60}));
+  const Geometry geometry = *make_geometry(Preset::paper, {80, 60});
+  auto device = device_scarf(geometry, {.placing = GpuOptions::Placing::chunked});
   ASSERT_TRUE(device->push(make_stream(Spread::uniform, {80, 60}, 5000, 4)));
   value_of(device->u8_planes(PolarityMode::separate));
   std::vector<std::string> stages;

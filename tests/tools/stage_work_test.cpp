@@ -57,7 +57,7 @@ TEST(StageWork, OfAPushThatIsPruned) {
   EXPECT_EQ(bytes_of(all, "clear"), 2 * 16 * 4) << "2 chunks of 16 classes";
   EXPECT_EQ(bytes_of(all, "count"), 20 * 16 + 20 * 8);
   EXPECT_EQ(bytes_of(all, "sum"), 2 * (2 * 16 * 8));
-  EXPECT_EQ(bytes_of(all, "scan"), 2 * 16 * 4 + 3 * (2 * 4 * 4) + 4 * (8 + 16) + 3 * 4);
+  EXPECT_EQ(bytes_of(all, "scan"), 2 * 16 * 4 + 3 * (2 * 4 * 4) + 4 * 12 * 2 + 3 * 4);
   EXPECT_EQ(bytes_of(all, "prune"), 2 * 4 * 4 + 2 * 4 * 4);
   EXPECT_EQ(bytes_of(all, "place"), 20 * 16 + 8 * 4 + 8 * 8 + 9 * 9) << "fewer entries than events and hits";
   for (const StageWork& work : all) EXPECT_EQ(work.atomics, work.stage == "count" ? 20 : 0) << work.stage;
@@ -78,15 +78,27 @@ TEST(StageWork, EachBandReadsTheEventsAgain) {
   EXPECT_EQ(bytes_of(push_work(plan, hits), "place"), 2 * (20 * 16 + 8 * 4) + 8 * 8 + 9 * 9);
 }
 
+TEST(StageWork, OfAPushThatIsAppended) {
+  const Hits hits = {.events = 20, .hits = 30, .stored = 9, .patches = 3};
+  Plan plan = plan_of(/*paints=*/true);
+  plan.always_appends = true;
+  plan.append.parts_shift = 1;
+  plan.append.bands = 3;
+  const auto all = push_work(plan, hits);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(bytes_of(all, "append"), 6 * 20 * 16 + 3 * 8 + 30 * 9)
+      << "2 parts of 3 bands; nothing is left out";
+}
+
 TEST(StageWork, OfImages) {
   const Hits hits = {.events = 20, .hits = 30, .stored = 9, .patches = 3};
   const auto painted = image_work(kGeometry, plan_of(/*paints=*/true), hits);
   ASSERT_EQ(painted.size(), 2u);
-  EXPECT_EQ(bytes_of(painted, "paint"), 4 * 4 + 3 * (4 + 16 + 16));
+  EXPECT_EQ(bytes_of(painted, "paint"), 2 * 4 * 4 + 3 * (4 + 16 + 16));
   EXPECT_EQ(bytes_of(painted, "copy"), 2 * 64);
   const auto rendered = image_work(kGeometry, plan_of(/*paints=*/false), hits);
   ASSERT_EQ(rendered.size(), 3u);
-  EXPECT_EQ(bytes_of(rendered, "render"), 64 * 4 + 12 * 8 + 4 * 8 + 12 * 8) << "12 slots, 64 pixels";
+  EXPECT_EQ(bytes_of(rendered, "render"), 64 * 4 + 12 * 8 + 4 * 12 + 12 * 8) << "12 slots, 64 pixels";
   EXPECT_EQ(bytes_of(rendered, "tone"), 64 * 4 + 64);
 }
 
