@@ -8,7 +8,6 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#extension GL_KHR_shader_subgroup_shuffle_relative : require
 #include "layout.h"
 layout(local_size_x_id = 0) in;  // one subgroup
 #include "invocation.glsl"
@@ -100,8 +99,10 @@ void append_hit(uint lane, uint part_row, uint i, uint k, Walked e) {
   uint before = 0;
   bool last = held;
   for (uint n = 1; n < kTeams; ++n) {
-    const uint earlier = subgroupShuffleUp(patch_id, n * kTeamLanes);
-    const uint later = subgroupShuffleDown(patch_id, n * kTeamLanes);
+    // Never beyond the subgroup: LLVM 15 crashes on such a lane where it knows the number beforehand.
+    const uint distance = n * kTeamLanes;
+    const uint earlier = subgroupShuffle(patch_id, max(lane, distance) - distance);
+    const uint later = subgroupShuffle(patch_id, min(lane + distance, gl_WorkGroupSize.x - 1));
     before += team >= n && earlier == patch_id ? 1 : 0;
     last = last && !(team + n < kTeams && later == patch_id);
   }
