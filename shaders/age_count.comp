@@ -7,7 +7,7 @@ layout(local_size_x = kLinearGroup) in;
 #include "events.glsl"
 #include "invocation.glsl"
 
-layout(std430, binding = 1) readonly buffer LastEvent { uint last_event[]; };
+layout(binding = 1) uniform usamplerBuffer last_event;
 layout(std430, binding = 2) buffer Ages { uint ages[]; };
 layout(push_constant) uniform Push { SurfacePush pushed; };
 SurfacePush push = pushed;
@@ -15,7 +15,7 @@ SurfacePush push = pushed;
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint xy = events[push.first_event + e].z;
+  const uint xy = event_at(push.first_event + e).z;
   if (pixel_of(xy, push.width, push.height) == kOutside) return;
   const uint x = xy & 0xFFFF;
   const uint y = xy >> 16;
@@ -26,7 +26,7 @@ void main() {
   for (uint row = y - min(y, push.reach); row <= bottom; ++row) {
     for (uint column = left; column <= right; ++column) {
       const uint pixel = row * push.width + column;
-      if (last_event[pixel] < push.stamp + e) atomicAdd(ages[pixel], 1);
+      if (texelFetch(last_event, int(pixel)).x < push.stamp + e) atomicAdd(ages[pixel], 1);
     }
   }
 }

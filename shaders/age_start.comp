@@ -6,7 +6,7 @@ layout(local_size_x = kLinearGroup) in;
 #include "events.glsl"
 #include "invocation.glsl"
 
-layout(std430, binding = 1) readonly buffer LastEvent { uint last_event[]; };
+layout(binding = 1) uniform usamplerBuffer last_event;
 layout(std430, binding = 2) writeonly buffer Ages { uint ages[]; };
 layout(push_constant) uniform Push { SurfacePush pushed; };
 SurfacePush push = pushed;
@@ -14,6 +14,6 @@ SurfacePush push = pushed;
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint pixel = pixel_of(events[push.first_event + e].z, push.width, push.height);
-  if (pixel != kOutside && last_event[pixel] == push.stamp + e) ages[pixel] = 0;
+  const uint pixel = pixel_of(event_at(push.first_event + e).z, push.width, push.height);
+  if (pixel != kOutside && texelFetch(last_event, int(pixel)).x == push.stamp + e) ages[pixel] = 0;
 }

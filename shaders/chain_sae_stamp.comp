@@ -15,7 +15,7 @@ ChainStampPush push = pushed;
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint pixel = pixel_of(events[push.first_event + e].z, push.width, push.height);
+  const uint pixel = pixel_of(event_at(push.first_event + e).z, push.width, push.height);
   if (pixel == kOutside) return;
   atomicMax(stamps[pixel], push.stamp + e);
   if (push.cells == 0) return;

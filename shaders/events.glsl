@@ -1,5 +1,6 @@
 // A buffer of events as they are in memory, and where they fall on the sensor.
-layout(std430, binding = 0) readonly buffer Events { uvec4 events[]; };  // t low, t high, x | y << 16, p
+layout(binding = 0) uniform usamplerBuffer events;  // t low, t high, x | y << 16, p
+uvec4 event_at(uint index) { return texelFetch(events, int(index)); }
 
 // The pixel of an event in row-major order; kOutside if it is not on the sensor.
 const uint kOutside = 0xFFFFFFFFu;

@@ -20,7 +20,7 @@ void main() {
   add(kFilterTotalRejected, report[kFilterRejected]);
   const uint newest = report[kFilterNewest];
   if (newest != 0) {
-    const uvec2 t = events[newest - 1].xy;
+    const uvec2 t = event_at(newest - 1).xy;
     report[kFilterNewestTime] = t.x;
     report[kFilterNewestTime + 1] = t.y;
   }

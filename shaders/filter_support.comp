@@ -33,7 +33,7 @@ void main() {
   // Trips: at most push.end - push.begin, which the host chooses by the device's limit.
   for (uint i = push.begin; i < end; ++i) {
     const uint e = lists[list + i];
-    const uvec4 event = events[push.first_event + e];
+    const uvec4 event = event_at(push.first_event + e);
     const uint x = (event.z & 0xFFFF) - left;
     const uint y = (event.z >> 16) - top;
     const int64_t t = time_of(event);

@@ -14,7 +14,7 @@ SurfacePush push = pushed;
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uvec4 event = events[push.first_event + e];
+  const uvec4 event = event_at(push.first_event + e);
   const uint pixel = pixel_of(event.z, push.width, push.height);
   if (pixel == kOutside) return;
   const uint plane = push.planes == 2 ? event.w & 1 : 0;

@@ -8,7 +8,7 @@ layout(local_size_x = kLinearGroup) in;
 #include "events.glsl"
 #include "invocation.glsl"
 
-layout(std430, binding = 1) readonly buffer LastEvent { uint last_event[]; };
+layout(binding = 1) uniform usamplerBuffer last_event;
 layout(std430, binding = 2) writeonly buffer LastTime { int64_t last_time[]; };  // relative to the first event
 layout(push_constant) uniform Push { SurfacePush pushed; };
 SurfacePush push = pushed;
@@ -16,11 +16,11 @@ SurfacePush push = pushed;
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uvec4 event = events[push.first_event + e];
+  const uvec4 event = event_at(push.first_event + e);
   const uint pixel = pixel_of(event.z, push.width, push.height);
   if (pixel == kOutside) return;
   const uint plane = push.planes == 2 ? event.w & 1 : 0;
   const uint place = plane * push.width * push.height + pixel;
-  if (last_event[place] != push.stamp + e) return;
+  if (texelFetch(last_event, int(place)).x != push.stamp + e) return;
   last_time[place] = packInt2x32(ivec2(event.xy)) - packInt2x32(ivec2(push.t_first_low, push.t_first_high));
 }

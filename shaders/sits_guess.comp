@@ -15,7 +15,7 @@ SitsPush push = pushed;
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint xy = events[push.first_event + e].z;
+  const uint xy = event_at(push.first_event + e).z;
   const uint x = xy & 0xFFFF;
   const uint y = xy >> 16;
   centres[e] = x < push.width && y < push.height ? values[y * 2 * push.pairs_x + x] : 0;

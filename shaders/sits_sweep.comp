@@ -118,7 +118,7 @@ bool replay(Tile tile) {
   for (uint block = tile.begin; block < tile.end; block += kTeamLanes) {
     const uint own = block + gl_SubgroupInvocationID;
     const uint own_event = lists[min(own, tile.end - 1)];
-    const uint own_xy = events[push.first_event + own_event].z;
+    const uint own_xy = event_at(push.first_event + own_event).z;
     const int own_before = centres_before[own_event];
     int own_centre = own_before;
     const uint block_events = min(kTeamLanes, tile.end - block);
@@ -146,7 +146,7 @@ void keep_centres(Tile tile) {
   // Trips: as replay(), without its inner loops.
   for (uint own = tile.begin + gl_SubgroupInvocationID; own < tile.end; own += kTeamLanes) {
     const uint own_event = lists[own];
-    const uint xy = events[push.first_event + own_event].z;
+    const uint xy = event_at(push.first_event + own_event).z;
     const ivec2 pixel = ivec2(xy & 0xFFFF, xy >> 16);
     if (in_tile(tile, pixel) && is_shared(tile, pixel)) centres[own_event] = centres_before[own_event];
   }

@@ -29,7 +29,7 @@ void main() {
   // Trips: see sits_trips_per_block() in src/representations/sits.cpp.
   for (uint block = 0; block < push.events; block += kTeamLanes) {
     const uint own_event = min(block + gl_SubgroupInvocationID, push.events - 1);
-    const uint own_xy = events[push.first_event + own_event].z;
+    const uint own_xy = event_at(push.first_event + own_event).z;
     const uint block_events = min(kTeamLanes, push.events - block);
     for (uint i = 0; i < block_events; ++i) {
       const uint xy = subgroupShuffle(own_xy, i);

@@ -13,7 +13,7 @@ layout(std430, binding = 1) buffer Begins { uint begins[]; };  // per tile and c
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint xy = events[push.first_event + e].z;
+  const uint xy = event_at(push.first_event + e).z;
   if (!is_inside(xy)) return;
   const Tiles tiles = tiles_of(xy);
   const uint chunk = e / push.chunk_events;

@@ -15,7 +15,7 @@ layout(std430, binding = 2) writeonly buffer Lists { uint lists[]; };
 void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
-  const uint xy = events[push.first_event + e].z;
+  const uint xy = event_at(push.first_event + e).z;
   if (!is_inside(xy)) return;
   const Tiles tiles = tiles_of(xy);
   const uint chunk = e / push.chunk_events;
@@ -24,7 +24,7 @@ void main() {
     for (uint column = tiles.left; column <= tiles.right; ++column) {
       uint place = begins[(row * push.tiles_x + column) * push.chunks + chunk];
       for (uint other = chunk * push.chunk_events; other < e; ++other) {
-        const uint other_xy = events[push.first_event + other].z;
+        const uint other_xy = event_at(push.first_event + other).z;
         if (is_inside(other_xy) && holds(column, row, other_xy)) ++place;
       }
       lists[place] = e;

@@ -6,13 +6,15 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
-layout(std430, binding = 0) readonly buffer Numbers { int numbers[]; };
-layout(std430, binding = 1) readonly buffer LevelsFloat { uint levels[]; };
+layout(binding = 0) uniform usamplerBuffer numbers;
+layout(binding = 1) uniform usamplerBuffer levels;
 layout(std430, binding = 2) writeonly buffer Picture { uint picture[]; };
 layout(push_constant) uniform Push { TonePush pushed; };
 TonePush push = pushed;
 
 void main() {
   const uint pixel = linear_index();
-  if (pixel < push.pixels) picture[pixel] = levels[clamp(numbers[pixel], 0, int(push.last_level))];
+  if (pixel >= push.pixels) return;
+  const int number = int(texelFetch(numbers, int(pixel)).x);
+  picture[pixel] = texelFetch(levels, clamp(number, 0, int(push.last_level))).x;
 }

@@ -60,10 +60,13 @@ void DeviceFilter::build(PipelineBuilder& b, const FilterParameters& parameters,
   b.buffer(filtered_, "the filtered events", uint64_t{most_events} * sizeof(Event));
   b.buffer(report_, "the report of the filter", kReportBytes);
   if (support != nullptr)
-    b.kernel(decide_, "filter_support", shaders::filter_support, 6, sizeof(layout::FilterPush));
+    b.kernel(decide_, "filter_support", shaders::filter_support, vulkan::Bindings::vectors_and(5),
+             sizeof(layout::FilterPush));
   else
-    b.kernel(decide_, "filter_refractory", shaders::filter_refractory, 6, sizeof(layout::FilterPush));
-  b.kernel(add_report_, "filter_report", shaders::filter_report, 2, sizeof(uint32_t));
+    b.kernel(decide_, "filter_refractory", shaders::filter_refractory, vulkan::Bindings::vectors_and(5),
+             sizeof(layout::FilterPush));
+  b.kernel(add_report_, "filter_report", shaders::filter_report, vulkan::Bindings::vectors_and(1),
+           sizeof(uint32_t));
   b.bind(bound_report_, add_report_, {&filtered_, &report_});
 }
 

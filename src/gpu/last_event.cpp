@@ -12,7 +12,8 @@ void LastEvent::build(PipelineBuilder& builder, SensorSize sensor, uint32_t plan
   planes_ = planes;
   builder.buffer(entries_, "the last event of each pixel",
                  uint64_t{planes} * sensor.width * sensor.height * sizeof(uint32_t));
-  builder.kernel(kernel_, "last_event", shaders::last_event, 2, sizeof(layout::SurfacePush));
+  builder.kernel(kernel_, "last_event", shaders::last_event, vulkan::Bindings::vectors_and(1),
+                 sizeof(layout::SurfacePush));
 }
 
 void LastEvent::bind(PipelineBuilder& builder, vulkan::BoundKernel& bound,

@@ -46,8 +46,10 @@ void TileLists::build(PipelineBuilder& builder, const TileListsPlan& plan) {
   plan_ = plan;
   builder.buffer(begins_, "the table of tiles and chunks", plan.table_words() * sizeof(uint32_t));
   builder.buffer(lists_, "the lists of events per tile", plan.list_words() * sizeof(uint32_t));
-  builder.kernel(count_, "tile_lists_count", shaders::tile_lists_count, 2, sizeof(layout::TileListsPush));
-  builder.kernel(place_, "tile_lists_place", shaders::tile_lists_place, 3, sizeof(layout::TileListsPush));
+  builder.kernel(count_, "tile_lists_count", shaders::tile_lists_count, vulkan::Bindings::vectors_and(1),
+                 sizeof(layout::TileListsPush));
+  builder.kernel(place_, "tile_lists_place", shaders::tile_lists_place, vulkan::Bindings::vectors_and(2),
+                 sizeof(layout::TileListsPush));
   sum_.build(builder, plan.table_words());
   sum_.bind(builder, sum_begins_, begins_);
 }

@@ -17,8 +17,11 @@ void Tone::build(PipelineBuilder& builder, const Levels& levels, uint64_t most_p
   builder.table<uint32_t>(levels_u8_, "the 8-bit levels", u8);
   builder.table<float>(levels_float_, "the float levels", levels.f32);
   builder.buffer(picture_, "the image", most_pixels * sizeof(float));
-  builder.kernel(u8_, "tone_u8", shaders::tone_u8, 3, sizeof(layout::TonePush));
-  builder.kernel(f32_, "tone_float", shaders::tone_float, 3, sizeof(layout::TonePush));
+  builder.kernel(u8_, "tone_u8", shaders::tone_u8,
+                 {vulkan::View::vectors, vulkan::View::words, vulkan::View::storage},
+                 sizeof(layout::TonePush));
+  builder.kernel(f32_, "tone_float", shaders::tone_float,
+                 {vulkan::View::words, vulkan::View::words, vulkan::View::storage}, sizeof(layout::TonePush));
 }
 
 void Tone::bind(PipelineBuilder& builder, Source& source, const vulkan::Buffer& numbers) const {

@@ -133,8 +133,12 @@ class AgePipeline final : public ImagePipeline {
     b.buffer(ages_, "the ages", pixels() * sizeof(uint32_t));
     b.buffer(shown_, "the ages as they are shown", pixels() * sizeof(uint32_t));
     tone_.build(b, levels, pixels());
-    b.kernel(start_, "age_start", shaders::age_start, 3, sizeof(layout::SurfacePush));
-    b.kernel(count_, "age_count", shaders::age_count, 3, sizeof(layout::SurfacePush));
+    b.kernel(start_, "age_start", shaders::age_start,
+             {vulkan::View::vectors, vulkan::View::words, vulkan::View::storage},
+             sizeof(layout::SurfacePush));
+    b.kernel(count_, "age_count", shaders::age_count,
+             {vulkan::View::vectors, vulkan::View::words, vulkan::View::storage},
+             sizeof(layout::SurfacePush));
     b.kernel(limit_, "age_limit", shaders::age_limit, 2, sizeof(layout::AgeLimitPush));
     b.bind(bound_cut_, limit_, {&ages_, &ages_});
     b.bind(bound_show_, limit_, {&ages_, &shown_});

@@ -183,7 +183,8 @@ class ChainSaePipeline final : public ImagePipeline {
     tone_.build(b, chain_table(static_cast<int64_t>(pixels_), linear), pixels_);
     tone_.bind(b, tone_shown_, shown());
     constexpr size_t kPush = sizeof(layout::ChainPush);
-    b.kernel(stamp_, "chain_sae_stamp", shaders::chain_sae_stamp, 3, sizeof(layout::ChainStampPush));
+    b.kernel(stamp_, "chain_sae_stamp", shaders::chain_sae_stamp, vulkan::Bindings::vectors_and(2),
+             sizeof(layout::ChainStampPush));
     b.kernel(mark_, "chain_sae_mark", shaders::chain_sae_mark, 2, kPush);
     b.kernel(count_, "chain_sae_count", shaders::chain_sae_count, 2, kPush);
     b.kernel(rank_, "chain_sae_rank", shaders::chain_sae_rank, 4, kPush);

@@ -141,7 +141,9 @@ class LastTimePipeline final : public ImagePipeline {
     b.buffer(ages_, "the ages", pixels() * sizeof(uint32_t));
     tone_.build(b, levels, pixels());
     b.kernel(fill_, "last_time_fill", shaders::last_time_fill, 1, sizeof(layout::FillTimesPush));
-    b.kernel(store_, "last_time", shaders::last_time, 3, sizeof(layout::SurfacePush));
+    b.kernel(store_, "last_time", shaders::last_time,
+             {vulkan::View::vectors, vulkan::View::words, vulkan::View::storage},
+             sizeof(layout::SurfacePush));
     b.kernel(age_, "sae_age", shaders::sae_age, 2, sizeof(layout::SaeAgePush));
     b.bind(bound_fill_, fill_, {&times_});
     b.bind(bound_age_, age_, {&times_, &ages_});

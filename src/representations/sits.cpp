@@ -186,7 +186,8 @@ class SitsPipeline final : public ImagePipeline {
   void build(PipelineBuilder& b) {
     b.buffer(values_, "the values", numbers() * kWord);
     const uint32_t team[] = {plan_.team_lanes(), plan_.team_x, plan_.team_y, plan_.tile};
-    b.kernel(walk_, "sits_walk", shaders::sits_walk, 3, sizeof(layout::SitsPush), std::span(team, 3),
+    b.kernel(walk_, "sits_walk", shaders::sits_walk, vulkan::Bindings::vectors_and(2),
+             sizeof(layout::SitsPush), std::span(team, 3),
              /*whole_subgroups=*/true);
     tone_.build(b, sits_levels(parameters_), numbers());
     tone_.bind(b, toned_values_, values_);
@@ -209,8 +210,10 @@ class SitsPipeline final : public ImagePipeline {
     }
     b.buffer(unsettled_, "the state of the sweeps", (plan_.sweeps + 2 * uint64_t{lists.tiles()}) * kWord);
     const uint32_t tile[] = {plan_.tile};
-    b.kernel(guess_, "sits_guess", shaders::sits_guess, 3, sizeof(layout::SitsPush));
-    b.kernel(sweep_, "sits_sweep", shaders::sits_sweep, 8, sizeof(layout::SitsPush), team,
+    b.kernel(guess_, "sits_guess", shaders::sits_guess, vulkan::Bindings::vectors_and(2),
+             sizeof(layout::SitsPush));
+    b.kernel(sweep_, "sits_sweep", shaders::sits_sweep, vulkan::Bindings::vectors_and(7),
+             sizeof(layout::SitsPush), team,
              /*whole_subgroups=*/true);
     b.kernel(commit_, "sits_commit", shaders::sits_commit, 4, sizeof(layout::SitsPush), tile);
     b.bind(bound_commit_, commit_, {&lists_.begins(), &swept_, &values_, &unsettled_});

@@ -27,6 +27,13 @@ class Bindings {
       : views_(storage_buffers, View::storage) {}
   Bindings(std::initializer_list<View> views) : views_(views) {}
 
+  /// Vectors, and behind them storage buffers.
+  static Bindings vectors_and(uint32_t storage_buffers) {
+    Bindings b(storage_buffers + 1);
+    b.views_[0] = View::vectors;
+    return b;
+  }
+
   uint32_t count() const { return static_cast<uint32_t>(views_.size()); }
   View operator[](uint32_t binding) const { return views_[binding]; }
 
