@@ -395,8 +395,9 @@ TEST_F(Program, VerifiesTheDevice) {
   EXPECT_THAT(outcome.out, StartsWith("identical: 20000 events, "));
   EXPECT_THAT(run("verify " + file + " --batch 1000 --max-events 4500").out,
               StartsWith("identical: 4500 events, 5 batches, "));
-  for (const std::string plan : {"--bands 3", "--bands 64 --chunk-events 1", "--submission-events 777",
-                                 "--chunk-events 100 --submission-events 5000"}) {
+  for (const std::string plan :
+       {"--bands 3", "--bands 64 --chunk-events 1", "--submission-events 777",
+        "--chunk-events 100 --submission-events 5000", "--placing chunked", "--placing appended --bands 2"}) {
     EXPECT_THAT(run("verify " + file + " --batch 6000 " + plan).out,
                 StartsWith("identical: 20000 events, 4 "))
         << plan;
