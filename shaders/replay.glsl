@@ -2,11 +2,14 @@
 // chunks[push.chunks].begin is the number of events. Include it after the local size is declared.
 #include "invocation.glsl"
 
-layout(std430, binding = 0) readonly buffer Events { uint events[]; };
-layout(std430, binding = 1) readonly buffer Chunks { ReplayChunk chunks[]; };
-layout(std430, binding = 2) buffer TableBuffer { uint table[]; };  // per chunk and patch
+layout(binding = 0) uniform usamplerBuffer events;
+layout(binding = 1) uniform usamplerBuffer chunks;  // two words each, see ReplayChunk
 layout(push_constant) uniform Push { ReplayPush pushed; };
 ReplayPush push = pushed;
+
+uint event_at(uint e) { return texelFetch(events, int(e)).x; }
+uint chunk_begin(uint chunk) { return texelFetch(chunks, int(2 * chunk)).x; }
+uint chunk_interval(uint chunk) { return texelFetch(chunks, int(2 * chunk + 1)).x; }
 
 // The patch in whose cell an event is: column | row << 16; kReplayNone if there is none.
 uint owner_of(uint xy) {

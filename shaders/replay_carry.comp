@@ -12,7 +12,7 @@ void main() {
   const uint word = linear_index();
   if (word >= push.patches * push.kept_words) return;
   const uint patch_id = word / push.kept_words;
-  const uint head = heads[patch_id].x;
+  const uint head = head_before(patch_id);
   uint left = kept[word];
   uint still = left;
   // Trips: at most 32, of at most 19 each for the search.
@@ -23,7 +23,7 @@ void main() {
     const uint age = head > slot ? head - slot : head + push.capacity - slot;
     const uint gone = chunk_beyond(patch_id, 0, int(push.capacity - age));
     if (gone == push.chunks) continue;
-    change(chunks[gone].interval, pixels[patch_id * push.capacity + slot], -1);
+    change(chunk_interval(gone), pixels[patch_id * push.capacity + slot], -1);
     still &= ~(left & -left);
   }
   kept[word] = still;

@@ -1,8 +1,13 @@
 // When events cease to be shown, and what that changes. Include it after replay.glsl.
-layout(std430, binding = 3) readonly buffer Heads { uvec2 heads[]; };  // per patch: before and behind the group
+layout(binding = 2) uniform usamplerBuffer table;                     // per chunk and patch: hits by its end
+layout(binding = 3) uniform usamplerBuffer heads;                     // per patch two: before and behind the group
 layout(std430, binding = 4) buffer Changes { uint changes[]; };        // per interval: counts of pixels, packed
 layout(std430, binding = 5) buffer Kept { uint kept[]; };              // per patch: one bit per slot
 layout(std430, binding = 6) buffer Pixels { uint pixels[]; };          // per patch and slot: valid if kept
+
+uint hits_by(uint chunk, uint patch_id) { return texelFetch(table, int(chunk * push.stride + patch_id)).x; }
+uint head_before(uint patch_id) { return texelFetch(heads, int(2 * patch_id)).x; }
+uint head_behind(uint patch_id) { return texelFetch(heads, int(2 * patch_id + 1)).x; }
 
 // The first chunk from `first` on by whose end the patch has had more than `hits` hits of this group; push.chunks if
 // there is none. The entries of a patch do not fall from chunk to chunk.
@@ -12,7 +17,7 @@ uint chunk_beyond(uint patch_id, uint first, int hits) {
   // Trips: at most 17, as there are at most 2^16 chunks and the range halves.
   while (low < high) {
     const uint middle = (low + high) / 2;
-    if (int(table[middle * push.stride + patch_id]) > hits)
+    if (int(hits_by(middle, patch_id)) > hits)
       high = middle;
     else
       low = middle + 1;

@@ -9,6 +9,8 @@ layout(local_size_x = kLinearGroup) in;
 #include "replay.glsl"
 #include "replay_ranges.glsl"
 
+layout(std430, binding = 2) buffer TableBuffer { uint table[]; };  // per chunk and patch
+
 void count_corners(uint base, uvec2 first, uvec2 beyond) {
   const bool right = beyond.x < push.grid_x;
   const bool below = beyond.y < push.grid_y;
@@ -21,10 +23,10 @@ void count_corners(uint base, uvec2 first, uvec2 beyond) {
 void main() {
   const uint chunk = linear_workgroup();
   if (chunk >= push.chunks) return;
-  const uint end = chunks[chunk + 1].begin;
+  const uint end = chunk_begin(chunk + 1);
   // Trips: kMaxChunkEvents / kLinearGroup.
-  for (uint e = chunks[chunk].begin + gl_LocalInvocationID.x; e < end; e += kLinearGroup) {
-    const uint xy = events[e];
+  for (uint e = chunk_begin(chunk) + gl_LocalInvocationID.x; e < end; e += kLinearGroup) {
+    const uint xy = event_at(e);
     const uvec2 ranges_of_event = uvec2(columns_of(xy), rows_of(xy));
     const uvec2 first = ranges_of_event & 0xFFFF;
     const uvec2 beyond = (ranges_of_event >> 16) + 1;

@@ -3,9 +3,9 @@
 
 layout(constant_id = 0) const uint kCountBits = 8;  // of a pixel's count: 8, or 16
 
-layout(std430, binding = 0) readonly buffer Changes { uint changes[]; };  // per interval
-layout(std430, binding = 1) buffer Counts { uint counts[]; };             // before the group; then behind it
-layout(std430, binding = 2) readonly buffer Levels { uint levels[]; };    // brightness of 0 .. capacity
+layout(binding = 0) uniform usamplerBuffer changes;            // per interval
+layout(std430, binding = 1) buffer Counts { uint counts[]; };  // before the group; then behind it
+layout(binding = 2) uniform usamplerBuffer levels;             // brightness of 0 .. capacity
 layout(push_constant) uniform Push { ReplayFramesPush pushed; };
 ReplayFramesPush push = pushed;
 
@@ -22,9 +22,12 @@ void write_counts(uint index, uvec2 packed) {
   }
 }
 uvec2 changes_in(uint interval, uint index) {
-  const uint word = interval * push.invocations + index;
-  return kCountBits == 8 ? uvec2(changes[word], 0) : uvec2(changes[2 * word], changes[2 * word + 1]);
+  const int word = int(interval * push.invocations + index);
+  if (kCountBits == 8) return uvec2(texelFetch(changes, word).x, 0);
+  return uvec2(texelFetch(changes, 2 * word).x, texelFetch(changes, 2 * word + 1).x);
 }
+uint level_of(uint count) { return texelFetch(levels, int(count)).x; }
+
 uvec4 unpack_counts(uvec2 packed) {
   return kCountBits == 8 ? packed.xxxx >> uvec4(0, 8, 16, 24) & 0xFF : packed.xxyy >> uvec4(0, 16, 0, 16) & 0xFFFF;
 }

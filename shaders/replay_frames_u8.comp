@@ -11,7 +11,7 @@ layout(std430, binding = 3) writeonly buffer Pictures { uint pictures[]; };  // 
 
 // The first levels travel as push constants: most counts are small, and a lookup in memory is dear.
 uint level(uint count) {
-  if (count >= kPushedLevels) return levels[count];
+  if (count >= kPushedLevels) return level_of(count);
   const uint word = count < 4 ? push.levels_0_to_3 : push.levels_4_to_7;
   return word >> 8 * (count & 3) & 255;
 }

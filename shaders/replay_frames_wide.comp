@@ -18,7 +18,7 @@ void main() {
   for (uint frame = 0; frame < push.frames; ++frame) {
     packed += changes_in(frame, index);
     uvec4 n = unpack_counts(packed);
-    if (kLookUp != 0) n = uvec4(levels[n.x], levels[n.y], levels[n.z], levels[n.w]);
+    if (kLookUp != 0) n = uvec4(level_of(n.x), level_of(n.y), level_of(n.z), level_of(n.w));
     pictures[frame * push.invocations + index] = n;
   }
   write_counts(index, packed + changes_in(push.frames, index));

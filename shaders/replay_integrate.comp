@@ -7,7 +7,7 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 
-layout(std430, binding = 0) buffer TableBuffer { uint table[]; };
+layout(binding = 0, r32ui) uniform uimageBuffer table;
 layout(push_constant) uniform Push { ReplayIntegratePush pushed; };
 ReplayIntegratePush push = pushed;
 
@@ -18,7 +18,8 @@ void main() {
   uint sum = 0;
   // Trips: patches of one axis, at most 49,152.
   for (uint i = 0; i < push.line_patches; ++i) {
-    sum += table[begin + i * push.patch_stride];
-    table[begin + i * push.patch_stride] = sum;
+    const int entry = int(begin + i * push.patch_stride);
+    sum += imageLoad(table, entry).x;
+    imageStore(table, entry, uvec4(sum));
   }
 }

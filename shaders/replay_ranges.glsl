@@ -1,5 +1,5 @@
 // The patches that hold an event: first | last << 16 of the columns and of the rows.
-layout(std430, binding = 3) readonly buffer Ranges { uint ranges[]; };
+layout(binding = 3) uniform usamplerBuffer ranges;
 
-uint columns_of(uint xy) { return ranges[xy & 0xFFFF]; }
-uint rows_of(uint xy) { return ranges[push.width + 1 + (xy >> 16)]; }
+uint columns_of(uint xy) { return texelFetch(ranges, int(xy & 0xFFFF)).x; }
+uint rows_of(uint xy) { return texelFetch(ranges, int(push.width + 1 + (xy >> 16))).x; }

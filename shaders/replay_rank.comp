@@ -18,6 +18,7 @@ const uint kTeamLanes = kTeamX * kTeamY;
 #include "replay.glsl"
 #include "replay_ranges.glsl"
 
+layout(binding = 2, r32ui) uniform uimageBuffer table;  // per chunk and patch
 layout(std430, binding = 4) writeonly buffer Ranks { uint ranks[]; };
 
 // First value >= first that is = lane mod team.
@@ -31,11 +32,11 @@ void main() {
   const uint team = gl_SubgroupInvocationID - lane;
   const uint base = chunk * push.stride;
   const uint waste = base + push.patches + lane;  // a masked load costs more than one that nobody needs
-  const uint end = chunks[chunk + 1].begin;
+  const uint end = chunk_begin(chunk + 1);
   // Trips: see rank_trips() in src/replay/plan.cpp.
-  for (uint block = chunks[chunk].begin; block < end; block += kTeamLanes) {
+  for (uint block = chunk_begin(chunk); block < end; block += kTeamLanes) {
     const uint own = block + lane;
-    const uint xy = events[min(own, end - 1)];
+    const uint xy = event_at(min(own, end - 1));
     const uint own_columns = own < end ? columns_of(xy) : 1;  // 1: from 1 to 0, none
     const uint own_rows = rows_of(xy);
     const uint own_patch = owner_of(xy);
@@ -52,8 +53,8 @@ void main() {
         for (uint c = 0; c < kLaneColumns; ++c) {
           const uint i = first_i + c * kTeamX;
           const uint entry = i <= columns >> 16 && j <= rows >> 16 ? base + j * push.grid_x + i : waste;
-          const uint hits = table[entry];
-          table[entry] = hits + 1;
+          const uint hits = imageLoad(table, int(entry)).x;
+          imageStore(table, int(entry), uvec4(hits + 1));
           if (wanted == (i | j << 16)) found = hits;
         }
       }

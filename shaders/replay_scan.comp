@@ -7,6 +7,7 @@
 layout(local_size_x = kLinearGroup) in;
 #include "replay.glsl"
 
+layout(binding = 2, r32ui) uniform uimageBuffer table;  // per chunk and patch
 layout(std430, binding = 3) buffer Heads { uvec2 heads[]; };
 
 void main() {
@@ -15,9 +16,9 @@ void main() {
   uint sum = 0;
   // Trips: push.chunks, see make_replay_plan().
   for (uint chunk = 0; chunk < push.chunks; ++chunk) {
-    const uint entry = chunk * push.stride + patch_id;
-    const uint hits = table[entry];
-    table[entry] = sum;
+    const int entry = int(chunk * push.stride + patch_id);
+    const uint hits = imageLoad(table, entry).x;
+    imageStore(table, entry, uvec4(sum));
     sum += hits;
   }
   const uint head = heads[patch_id].y;

@@ -12,6 +12,7 @@ namespace {
 
 using vulkan::Buffer;
 using vulkan::Commands;
+using vulkan::View;
 
 constexpr uint64_t kWord = sizeof(uint32_t);
 
@@ -60,20 +61,32 @@ void ReplayPipeline::build(PipelineBuilder& b, ReplayPixels pixels, const Levels
   const uint32_t team[] = {plan_.workgroup_size(), plan_.team_x, plan_.team_y, plan_.lane_columns,
                            plan_.lane_rows};
   const size_t push_bytes = sizeof(layout::ReplayPush);
-  b.kernel(count_, "replay_count", shaders::replay_count, 4, push_bytes);
-  b.kernel(integrate_, "replay_integrate", shaders::replay_integrate, 1, sizeof(layout::ReplayIntegratePush));
-  b.kernel(scan_, "replay_scan", shaders::replay_scan, 4, push_bytes);
-  b.kernel(rank_, "replay_rank", shaders::replay_rank, 5, push_bytes, team, /*whole_subgroups=*/true);
-  b.kernel(carry_, "replay_carry", shaders::replay_carry, 7, push_bytes);
-  b.kernel(change_, "replay_change", shaders::replay_change, 8, push_bytes);
+  b.kernel(count_, "replay_count", shaders::replay_count,
+           {View::words, View::words, View::storage, View::words}, push_bytes);
+  b.kernel(integrate_, "replay_integrate", shaders::replay_integrate, {View::image},
+           sizeof(layout::ReplayIntegratePush));
+  b.kernel(scan_, "replay_scan", shaders::replay_scan, {View::words, View::words, View::image, View::storage},
+           push_bytes);
+  b.kernel(rank_, "replay_rank", shaders::replay_rank,
+           {View::words, View::words, View::image, View::words, View::storage}, push_bytes, team,
+           /*whole_subgroups=*/true);
+  b.kernel(carry_, "replay_carry", shaders::replay_carry,
+           {View::words, View::words, View::words, View::words, View::storage, View::storage, View::storage},
+           push_bytes);
+  b.kernel(change_, "replay_change", shaders::replay_change,
+           {View::words, View::words, View::words, View::words, View::storage, View::storage, View::storage,
+            View::words},
+           push_bytes);
   const uint32_t looked_up = pixels == ReplayPixels::counts ? 0 : 1;
   const uint32_t constants[] = {plan_.count_bits, looked_up};
   const size_t frames_bytes = sizeof(layout::ReplayFramesPush);
   if (pixels == ReplayPixels::u8)
-    b.kernel(frames_, "replay_frames_u8", shaders::replay_frames_u8, 4, frames_bytes,
+    b.kernel(frames_, "replay_frames_u8", shaders::replay_frames_u8,
+             {View::words, View::storage, View::words, View::storage}, frames_bytes,
              std::span(constants).first(1));
   else
-    b.kernel(frames_, "replay_frames_wide", shaders::replay_frames_wide, 4, frames_bytes, constants);
+    b.kernel(frames_, "replay_frames_wide", shaders::replay_frames_wide,
+             {View::words, View::storage, View::words, View::storage}, frames_bytes, constants);
   b.bind(bound_integrate_, integrate_, {&table_});
 }
 
@@ -203,7 +216,8 @@ void ReplayPipeline::record_group(Commands& commands, const ReplayGroup& group, 
                                   uint32_t chunks, uint32_t frames) const {
   if (group.device_events.size() != 0) {
     commands.copy(group.events, 0, group.device_events, 0, events * kWord);
-    commands.copy(group.chunks, 0, group.device_chunks, 0, (uint64_t{chunks} + 1) * sizeof(layout::ReplayChunk));
+    commands.copy(group.chunks, 0, group.device_chunks, 0,
+                  (uint64_t{chunks} + 1) * sizeof(layout::ReplayChunk));
     commands.barrier();
     commands.mark("upload");
   }
