@@ -1,4 +1,5 @@
 // Push constants and constants shared by the shaders and the host. Read by both compilers.
+// Shaders copy their push constants to a variable, `push`, once: llvmpipe loads them anew, and slowly, at every use.
 #ifndef SCARF_SHADERS_LAYOUT_H
 #define SCARF_SHADERS_LAYOUT_H
 

@@ -19,10 +19,11 @@ layout(constant_id = 4) const uint kLaneRows = 1;     // rows likewise
 layout(constant_id = 5) const bool kPaints = true;    // the paint stage needs positions
 layout(constant_id = 6) const uint kTeams = 1;        // events at a time, at most the capacity; see append_hit()
 const uint kTeamLanes = kTeamX * kTeamY;
-const uint kBlock = gl_WorkGroupSize.x < 32 ? gl_WorkGroupSize.x : 32;  // events that are read together: bits of a word of a ballot
+// Events that are read together: bits of a word of a ballot.
+const uint kBlock = gl_WorkGroupSize.x < 32 ? gl_WorkGroupSize.x : 32;
 
-layout(binding = 0) uniform usamplerBuffer events;              // t low, t high, x | y << 16, p
-layout(binding = 1, r32ui) coherent uniform uimageBuffer heads;   // see ring_head.glsl, and append_hit()
+layout(binding = 0) uniform usamplerBuffer events;                         // t low, t high, x | y << 16, p
+layout(binding = 1, r32ui) coherent uniform uimageBuffer heads;  // see ring_head.glsl, append_hit()
 layout(std430, binding = 2) writeonly buffer Slots { uint64_t slots[]; };
 layout(std430, binding = 3) writeonly buffer Positions { uint8_t positions[]; };  // per slot; see kNotShown
 layout(push_constant) uniform Push { AppendPush pushed; };
@@ -86,9 +87,10 @@ Walked walk(uint index, Part part) {
 // The hit of an event on patch (i, row k of the part), if that holds it. Nothing is masked: on CPU devices an
 // unpredictable branch costs more than a store, so what is not to happen goes to a head and a slot of the lane's own.
 //
-// A team of lanes takes one event; where a subgroup has several teams, they take consecutive events in the same step. The
-// lanes of all teams with the same number in their team own the same patches. Those that store in the same one, as they can
-// see, take consecutive slots, and the last of them moves the head.
+// A team of lanes takes one event; where a subgroup has several teams, they take consecutive events in the same step.
+// Lanes with the same number in their teams own the same patches. Those that store in the same one, as they can see, take
+// consecutive slots, and the last of them moves the head. That the next step finds the head moved counts on lanes that go
+// in step: see make_append_plan() in src/scarf/plan.cpp.
 void append_hit(uint lane, uint part_row, uint i, uint k, Walked e) {
   const bool held = i <= e.columns >> 16 && k <= e.rows >> 16;
   const uint j = (k << push.parts_shift) + part_row;
@@ -137,7 +139,8 @@ void main() {
   const Part part = this_part();
   const uint lane = gl_SubgroupInvocationID;
   uint block = 0;
-  // Loops end at their ends only, where a branch skips them on CPU devices. Trips: see trips_per_block() in src/scarf/plan.cpp.
+  // Loops end at their ends only, where a branch skips them on CPU devices. Trips: see trips_per_block() in
+  // src/scarf/plan.cpp.
   do {
     const Walked own = walk(lane < kBlock ? block + lane : push.events, part);
     uint left = subgroupBallot(own.columns != 0xFFFF).x;

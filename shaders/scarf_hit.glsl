@@ -1,4 +1,5 @@
-// What a patch keeps of an event: the place and append stages. Include it after push constants that have grid and margins.
+// What a patch keeps of an event: the place and append stages. Include it after push constants that have the grid and the
+// margins.
 #include "packed_event.glsl"
 #include "active.glsl"
 

@@ -44,6 +44,9 @@ constexpr uint64_t kPruneHitsPerSlot = 3;
 // cache of a CPU's core holds about so many.
 constexpr uint32_t kRingsInCache = 4096;
 
+// Hits of an event in a part of the patches from which on it pays to walk the events once for each band.
+constexpr uint32_t kHitsWorthBands = 4;
+
 // Levels that do not change beyond those that travel as push constants.
 bool few(std::span<const uint8_t> levels) {
   constexpr size_t kLast = layout::kPushedLevels - 1;
@@ -78,7 +81,8 @@ AppendPlan make_append_plan(const Plan& plan, const Geometry& geometry, const vu
   // Lanes of several teams see each other's heads because the lanes of a CPU device go in step.
   if (limits.cpu) a.teams = std::min({lanes / (a.team_x * a.team_y), kMostTeams, plan.capacity});
   const uint32_t rows = ceil_div(static_cast<uint32_t>(geometry.y.grid), a.parts());
-  const uint32_t wanted_bands = ceil_div(plan.patches / a.parts(), kRingsInCache);
+  const bool many_hits = plan.most_columns * event_rows >= kHitsWorthBands;
+  const uint32_t wanted_bands = many_hits ? ceil_div(plan.patches / a.parts(), kRingsInCache) : 1;
   a.band_rows = ceil_div(rows, std::min(rows, options.bands != 0 ? options.bands : wanted_bands));
   a.bands = ceil_div(rows, a.band_rows);
   const uint64_t blocks = (limits.loop_trips - 8) / trips_per_block(a);

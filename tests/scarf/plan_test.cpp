@@ -159,6 +159,11 @@ TEST(Plan, BandsCoverAllRowsAndAreManyOnlyWhereRingsAreMany) {
   EXPECT_EQ(make_plan(small, kLevels, cpu, {})->bands, 1u);
   EXPECT_EQ(make_plan(large, kLevels, cpu, {})->bands, 3u);
   EXPECT_EQ(make_plan(large, kLevels, limits_of(32, UINT32_MAX, false), {})->bands, 1u);
+  EXPECT_EQ(make_plan(small, kLevels, cpu, {})->append.bands, 1u);
+  EXPECT_EQ(make_plan(large, kLevels, cpu, {})->append.bands, 2u);
+  const Geometry few_hits = *make_geometry(Preset::light, {1280, 720});
+  EXPECT_EQ(make_plan(few_hits, kLevels, cpu, {})->append.bands, 1u);
+  EXPECT_EQ(make_plan(few_hits, kLevels, cpu, {.bands = 5})->append.bands, 5u);
   for (const Geometry& g : {small, large}) {
     for (uint32_t bands = 1; bands <= 64; ++bands) {
       const Plan plan = *make_plan(g, kLevels, cpu, {.bands = bands});
