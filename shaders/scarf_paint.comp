@@ -1,5 +1,5 @@
 // SCARF, stage "paint": the 8-bit picture of the cells whose patches changed since they were last painted, from the
-// positions that the place stage keeps. For small cells and capacities, and levels that do not change beyond the
+// positions that the place and append stages keep. For small cells and capacities, and levels that do not change beyond the
 // eighth (Plan::paints); others take render and tone.
 // CPU twin: cpu_ref/stages/scarf_paint.cpp
 #version 460
