@@ -36,17 +36,16 @@ struct StageWork {
 /// - count: events read, an atomic each; counts read and written, at most one per event
 /// - sum: counts read and written, twice
 /// - scan: sums read; entries written, read and written; heads read and written
-/// - append, instead of all these and place: for each part and band events read; heads read and written, each
-/// at
-///   most once; all hits written, and positions if the plan paints
+/// - append, instead of all these and place: for each part and band events read; heads read and
+///   written, each at most once; all hits written, and positions if the plan paints
 /// - prune: entries read, the result written
 /// - place: for each band events and the result of prune read; entries read and written, each at most once;
 ///   slots written, and positions if the plan paints
 std::vector<StageWork> push_work(const Plan& plan, const Hits& hits);
 
 /// Of one 8-bit image, its copy for the host included. `hits`: of the events since the last one.
-/// - paint: heads of now and of the last picture read; of changed patches head and cell written and positions
-/// read
+/// - paint: heads of now and of the last picture read; of changed patches head and cell written
+///   and positions read
 /// - render: counts set to 0; all slots and heads read; for each slot, at most one per pixel, its count read
 ///   and written
 /// - tone: counts read, picture written

@@ -1,9 +1,7 @@
 // A batch of events in staging memory, as the count and place stages see it.
-layout(binding = 0) uniform usamplerBuffer events;  // t low, t high, x | y << 16, p
+#include "events.glsl"
 layout(push_constant) uniform Push { BatchPush pushed; };
 BatchPush push = pushed;
-
-uvec4 event_at(uint index) { return texelFetch(events, int(index)); }
 
 // Where an event's column and row are found in tables of both; what is outside the sensor has an entry too.
 uint column_entry(uint xy) { return min(xy & 0xFFFF, push.width); }

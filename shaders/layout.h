@@ -99,8 +99,7 @@ struct AppendPush {
   uint capacity;
   uint t_first_low;
   uint t_first_high;
-  uint parts_y;        // of the patches; see scarf_append.comp
-  uint parts_shift;    // 1 << parts_shift is parts_y
+  uint parts_shift;    // 1 << parts_shift are the parts of the patches; see scarf_append.comp
   uint bands;
   uint band_rows;      // of a part
   uint unused_slot;    // index of slots, one per invocation, for what is not to happen
@@ -121,14 +120,14 @@ struct ClearPush {
   uint slots;
 };
 
-// sum: running sums along the lines of each chunk's counts per class.
+// running_sums: along the lines of each chunk's part of a table.
 struct SumPush {
   uint chunks;
-  uint class_words;    // per chunk
+  uint chunk_words;
   uint lines;          // per chunk
   uint line_stride;    // from one line to the next
-  uint line_classes;
-  uint class_stride;   // from one class of a line to the next
+  uint entries;        // of a line
+  uint entry_stride;   // from one entry of a line to the next
 };
 
 // prune: which events of a chunk have a surviving hit.

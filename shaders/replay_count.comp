@@ -1,5 +1,5 @@
 // Replay, stage "count": the corners of the rectangle of patches that hold an event, so that sums along rows and columns
-// (replay_integrate.comp) give the hits of each chunk on each patch. A workgroup per chunk; a count does not depend on
+// (running_sums.comp) give the hits of each chunk on each patch. A workgroup per chunk; a count does not depend on
 // order, so atomics are exact.
 // CPU twin: cpu_ref/stages/replay_count.cpp
 #version 460

@@ -42,16 +42,6 @@ struct ReplayPush {
   uint count_bits;      // of a pixel's count in a word of changes: 8 or 16
 };
 
-// integrate: running sums along the rows or columns of patches of each chunk.
-struct ReplayIntegratePush {
-  uint chunks;
-  uint stride;
-  uint lines;         // per chunk
-  uint line_stride;   // from one line to the next
-  uint line_patches;
-  uint patch_stride;  // from one patch of a line to the next
-};
-
 // frames: pictures from changes.
 struct ReplayFramesPush {
   uint frames;

@@ -17,12 +17,10 @@ layout(constant_id = 4) const uint kLaneRows = 2;     // rows likewise
 const uint kTeamLanes = kTeamX * kTeamY;
 #include "replay.glsl"
 #include "replay_ranges.glsl"
+#include "first_owned.glsl"
 
 layout(binding = 2, r32ui) uniform uimageBuffer table;  // per chunk and patch
 layout(std430, binding = 4) writeonly buffer Ranks { uint ranks[]; };
-
-// First value >= first that is = lane mod team.
-uint first_owned(uint first, uint lane, uint team) { return first + ((lane - first) & (team - 1)); }
 
 void main() {
   const uint invocation = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;

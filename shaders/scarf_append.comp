@@ -22,7 +22,8 @@ const uint kTeamLanes = kTeamX * kTeamY;
 // Events that are read together: bits of a word of a ballot.
 const uint kBlock = gl_WorkGroupSize.x < 32 ? gl_WorkGroupSize.x : 32;
 
-layout(binding = 0) uniform usamplerBuffer events;                         // t low, t high, x | y << 16, p
+#include "events.glsl"
+
 layout(binding = 1, r32ui) coherent uniform uimageBuffer heads;  // see ring_head.glsl, append_hit()
 layout(std430, binding = 2) writeonly buffer Slots { uint64_t slots[]; };
 layout(std430, binding = 3) writeonly buffer Positions { uint8_t positions[]; };  // per slot; see kNotShown
@@ -31,8 +32,10 @@ AppendPush push = pushed;
 #include "ring_head.glsl"
 #include "scarf_hit.glsl"
 
-// Part n of the patches: every push.parts_y-th row, from row n on, and of these a band, whose rings fit into a core's
-// cache. The rows of a part are numbered by themselves: its row k is row k * parts_y + n of the grid. Nearly every event
+uint parts() { return 1u << push.parts_shift; }
+
+// Part n of the patches: every parts-th row, from row n on, and of these a band, whose rings fit into a core's
+// cache. The rows of a part are numbered by themselves: its row k is row k * parts + n of the grid. Nearly every event
 // has patches in all parts, so that cores have the same work wherever the events are.
 struct Part {
   uint first_row;
@@ -44,7 +47,7 @@ Part this_part() {
   // Consecutive workgroups may go to the same core: it takes a part's bands one after the other, and each core begins
   // with another band.
   const uint part = linear_workgroup() / push.bands;
-  const uint band = (linear_workgroup() + part * push.bands / push.parts_y) % push.bands;
+  const uint band = (linear_workgroup() + part * push.bands / parts()) % push.bands;
   return Part(part, band * push.band_rows, (band + 1) * push.band_rows - 1);
 }
 
@@ -62,7 +65,7 @@ uvec2 holders(uint distance, uint overlap, uint inverse, uint grid) {
 
 // An event and its rectangle of patches; 0xFFFF | 0 << 16 for columns where this part has none of them.
 Walked walk(uint index, Part part) {
-  const uvec4 event = texelFetch(events, int(push.first_event + (index < push.events ? index : 0)));
+  const uvec4 event = event_at(push.first_event + (index < push.events ? index : 0));
   const uint64_t t_first = packUint2x32(uvec2(push.t_first_low, push.t_first_high));
   const uint x = event.z & 0xFFFF;
   const uint y = event.z >> 16;
@@ -70,8 +73,8 @@ Walked walk(uint index, Part part) {
   const uint from_field_y = y - uint(push.field_y);
   const uvec2 columns = holders(from_field_x, push.overlap_x, push.inverse_x, push.grid_x);
   const uvec2 rows = holders(from_field_y, push.overlap_y, push.inverse_y, push.grid_y);
-  const uint k_first = rows.x + push.parts_y - 1 - part.first_row >> push.parts_shift;
-  const uint k_end = rows.y + push.parts_y - part.first_row >> push.parts_shift;  // one more than the last
+  const uint k_first = rows.x + parts() - 1 - part.first_row >> push.parts_shift;
+  const uint k_end = rows.y + parts() - part.first_row >> push.parts_shift;  // one more than the last
   const uint begin = max(k_first, part.band_begin);
   const uint end = min(k_end, part.band_last + 1);
   const bool held = index < push.events && x < push.width && y < push.height && int(from_field_x) >= 0 &&

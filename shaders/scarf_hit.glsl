@@ -2,6 +2,7 @@
 // margins.
 #include "packed_event.glsl"
 #include "active.glsl"
+#include "first_owned.glsl"
 
 // An event on its way to its patches.
 struct Walked {
@@ -24,6 +25,3 @@ uint position_of(uvec2 slot) {
   const uint y = packed_y(slot.x) - push.margin_lo_y;
   return is_active(slot.x) ? y * push.row_bytes + x : kNotShown;
 }
-
-// First value >= first that is = lane mod team, a power of two.
-uint first_owned(uint first, uint lane, uint team) { return first + ((lane - first) & (team - 1)); }

@@ -1,5 +1,4 @@
-// SCARF, stage "scan": per patch, the chunks' hits become cursors, and the head and the laps
-// advance.
+// SCARF, stage "scan": per patch, the chunks' hits become cursors, and head and laps advance.
 // CPU twin: cpu_ref/stages/scarf_scan.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +8,7 @@ layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 #include "ring_head.glsl"
 
-layout(binding = 0) uniform usamplerBuffer sums;                               // see scarf_sum.comp
+layout(binding = 0) uniform usamplerBuffer sums;                               // see running_sums.comp
 layout(std430, binding = 1) readonly buffer PatchClasses { uint classes[]; };  // before the first | last << 16, per
                                                                                // column of patches, then row
 layout(std430, binding = 2) buffer TableBuffer { uint table[]; };              // cursors per chunk and patch

@@ -14,7 +14,7 @@ struct ReplayEvents {
   std::span<const layout::ReplayChunk> chunks;
 };
 
-/// shaders/replay_count.comp and replay_integrate.comp: adds the hits of each chunk on each patch to `table`
+/// shaders/replay_count.comp and running_sums.comp: adds the hits of each chunk on each patch to `table`
 /// (chunk-major, push.stride).
 void replay_count(const ReplayEvents& group, std::span<const uint32_t> ranges, std::span<uint32_t> table,
                   const layout::ReplayPush& push);

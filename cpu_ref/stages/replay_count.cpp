@@ -1,4 +1,4 @@
-// Twin of shaders/replay_count.comp and replay_integrate.comp.
+// Twin of shaders/replay_count.comp and running_sums.comp.
 #include "cpu_ref/stages/replay.h"
 #include "cpu_ref/stages/replay_walk.h"
 

@@ -15,8 +15,8 @@ namespace scarf::stages {
 void scarf_count(std::span<const Event> events, std::span<const uint32_t> classes,
                  std::span<uint32_t> class_counts, const layout::BatchPush& push);
 
-/// shaders/scarf_sum.comp: running sums along lines.
-void scarf_sum(std::span<uint32_t> class_counts, const layout::SumPush& push);
+/// shaders/running_sums.comp.
+void running_sums(std::span<uint32_t> table, const layout::SumPush& push);
 
 /// shaders/scarf_scan.comp: sums of classes become cursors (chunk-major, push.patches); heads
 /// and laps advance.

@@ -63,8 +63,7 @@ void ReplayPipeline::build(PipelineBuilder& b, ReplayPixels pixels, const Levels
   const size_t push_bytes = sizeof(layout::ReplayPush);
   b.kernel(count_, "replay_count", shaders::replay_count,
            {View::words, View::words, View::storage, View::words}, push_bytes);
-  b.kernel(integrate_, "replay_integrate", shaders::replay_integrate, {View::image},
-           sizeof(layout::ReplayIntegratePush));
+  b.kernel(integrate_, "running_sums", shaders::running_sums, {View::image}, sizeof(layout::SumPush));
   b.kernel(scan_, "replay_scan", shaders::replay_scan, {View::words, View::words, View::image, View::storage},
            push_bytes);
   b.kernel(rank_, "replay_rank", shaders::replay_rank,
@@ -165,9 +164,9 @@ void ReplayPipeline::record_count(Commands& commands, const ReplayGroup& group, 
   commands.mark("count");
   const auto grid_x = static_cast<uint32_t>(geometry_.x.grid);
   const auto grid_y = static_cast<uint32_t>(geometry_.y.grid);
-  const layout::ReplayIntegratePush rows = {chunks, plan_.stride(), grid_y, grid_x, grid_x, 1};
-  const layout::ReplayIntegratePush columns = {chunks, plan_.stride(), grid_x, 1, grid_y, grid_x};
-  for (const layout::ReplayIntegratePush& lines : {rows, columns}) {
+  const layout::SumPush rows = {chunks, plan_.stride(), grid_y, grid_x, grid_x, 1};
+  const layout::SumPush columns = {chunks, plan_.stride(), grid_x, 1, grid_y, grid_x};
+  for (const layout::SumPush& lines : {rows, columns}) {
     commands.dispatch(bound_integrate_, uint64_t{chunks} * lines.lines, layout::kLinearGroup, lines);
     commands.barrier();
   }

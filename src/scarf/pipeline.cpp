@@ -68,7 +68,7 @@ void ScarfPipeline::build(PipelineBuilder& b, const Levels& levels) {
       a.lanes, a.team_x, a.team_y, a.lane_columns, a.lane_rows, plan_.paints ? 1U : 0U, a.teams};
   b.kernel(count_, "scarf_count", shaders::scarf_count, {View::vectors, View::words, View::storage},
            sizeof(layout::BatchPush));
-  b.kernel(sum_, "scarf_sum", shaders::scarf_sum, {View::image}, sizeof(layout::SumPush));
+  b.kernel(sum_, "running_sums", shaders::running_sums, {View::image}, sizeof(layout::SumPush));
   b.kernel(scan_, "scarf_scan", shaders::scarf_scan,
            {View::words, View::storage, View::storage, View::storage, View::storage, View::storage},
            sizeof(layout::ScanPush));
@@ -249,7 +249,6 @@ layout::AppendPush ScarfPipeline::append_push(uint32_t first, uint32_t count, in
   push.capacity = geometry_.capacity;
   push.t_first_low = low_word(t_first);
   push.t_first_high = high_word(t_first);
-  push.parts_y = plan_.append.parts();
   push.parts_shift = plan_.append.parts_shift;
   push.bands = plan_.append.bands;
   push.band_rows = plan_.append.band_rows;

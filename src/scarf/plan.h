@@ -2,6 +2,7 @@
 // options.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -99,7 +100,7 @@ struct Plan {
   /// Most invocations of the place or append stage, those of unfinished workgroups included.
   uint64_t most_invocations() const {
     const uint64_t place = (teams(max_chunks, stripes) + teams_per_workgroup) * team_lanes();
-    return place > append.invocations() ? place : append.invocations();
+    return std::max<uint64_t>(place, append.invocations());
   }
   /// Whether most hits of a submission are overwritten within it.
   bool prunes(uint32_t events) const;

@@ -118,8 +118,8 @@ class Stages : public test::DeviceTest {
 
     const uint32_t columns = plan_.class_columns;
     const uint32_t rows = plan_.class_rows;
-    stages::scarf_sum(class_counts, {push.chunks, push.class_words, rows, columns, columns, 1});
-    stages::scarf_sum(class_counts, {push.chunks, push.class_words, columns, 1, rows, columns});
+    stages::running_sums(class_counts, {push.chunks, push.class_words, rows, columns, columns, 1});
+    stages::running_sums(class_counts, {push.chunks, push.class_words, columns, 1, rows, columns});
     run([&] { pipeline_->record_sum(commands_, push); });
     ASSERT_EQ(read<uint32_t>(pipeline_->class_counts(), class_counts.size()), class_counts) << "sum";
 
