@@ -45,6 +45,7 @@ constexpr Name kNames[] = {
     {"polarities", Column::p},
     {"on", Column::p},
     {"is_on", Column::p},
+    {"is_increase", Column::p},
     {"camera", Column::camera},
     {"cam", Column::camera},
     {"channel", Column::camera},
