@@ -36,7 +36,9 @@ Result<bool> unpack_hdf5(const std::string& path, hdf5::Family family, const Rea
   if (layout == nullptr) return false;
   const auto place = hdf5::place_of(*file, *layout, options.stream);
   if (!place) return place.error();
-  auto table = hdf5::EventTable::open(*file, *layout, *place, options.columns);
+  const auto places = hdf5::places_of(*layout, *place, options.columns);
+  if (!places) return places.error();
+  auto table = hdf5::EventTable::open(*file, *places);
   if (!table) return table.error();
   for (uint64_t row = 0; row < table->rows();) {
     const uint64_t left = table->rows() - row;

@@ -1,6 +1,8 @@
 // scarf frames: the greyscale frames that a recording holds beside its events.
 #include "scarf/frames.h"
 
+#include <iostream>
+
 #include "core/text.h"
 #include "tools/commands.h"
 #include "tools/files.h"
@@ -22,10 +24,11 @@ Result<int> frames(const FramesOptions& options) {
   const auto source = open_frames(options.file, options.read);
   if (!source) return source.error();
   if (auto r = make_picture_folder(options.output, {kName}); !r) return r.error();
+  uint64_t index = 0;
   std::string list = "index,t_us,exposure_begin_us,exposure_end_us\n";
   // A recording may break off: the list names the pictures before that, too.
   const auto write_list = [&] { return write_file(text(options.output, "/", kPictureList), list); };
-  for (uint64_t index = 0;; ++index) {
+  for (;; ++index) {
     const auto frame = (*source)->read();
     if (!frame) {
       if (auto r = write_list(); !r) return r.error();
@@ -38,6 +41,12 @@ Result<int> frames(const FramesOptions& options) {
     list += text(index, ",", f.t, ",", f.exposure_begin, ",", f.exposure_end, "\n");
   }
   if (auto r = write_list(); !r) return r.error();
+  const PassedFrames& passed = (*source)->passed_over();
+  if (passed.count == 0) return 0;
+  const std::string what = text(passed.count, " frames or broken places were passed over; the first at byte ",
+                                passed.first->byte, ": ", passed.first->what);
+  if (index == 0) return Error{ErrorCode::bad_input, text(options.file, ": no frame was read: ", what)};
+  std::cout << "lost: " << what << "\n";
   return 0;
 }
 

@@ -99,6 +99,7 @@ Result<int> info(const InfoOptions& options) {
       {"dropped", "dropped", report.dropped},
       {"gaps", "gaps", report.gaps},
       {"unknown words", "unknown_words", report.unknown_words},
+      {"skipped records", "skipped", report.skipped},
       {"truncated bytes", "truncated_bytes", report.truncated_bytes},
       {"damaged places", "damages", report.damages},
   };

@@ -40,7 +40,9 @@ void add_read_options(CLI::App& app, ReadOptions& o) {
                          {"first-event", TimeShift::first_event}},
                         "What is subtracted from all times: none, first-high, first-event");
   app.add_flag("--strict", o.strict, "Damage, unknown words and truncated bytes are errors")->group(group);
-  app.add_option("--columns", o.columns, "Order of the columns of text and plain arrays, such as txyp")
+  app.add_option("--columns", o.columns,
+                 "Order of the columns of text and plain arrays, such as txyp; or names of columns, such as "
+                 "t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol (HDF5, NumPy)")
       ->group(group);
   app.add_option("--time-unit", o.time_unit, "Unit of times where the format leaves it open")
       ->check(CLI::IsMember({"s", "ms", "us", "ns"}))

@@ -98,6 +98,7 @@ std::string losses(const EventSource& source) {
   line(report.outside, "events outside the sensor");
   line(report.dropped, "events older than one before them");
   line(report.unknown_words, "words or lines that the format does not define");
+  line(report.skipped, "records of other things than events, or marked as not valid");
   line(report.truncated_bytes, "bytes at the end that make no whole word, line or packet");
   line(report.damages, "damaged places");
   const auto all = formats();

@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "scarf/image.h"
 #include "scarf/io.h"
+#include "scarf/read_report.h"
 #include "scarf/result.h"
 
 namespace scarf {
@@ -21,11 +23,28 @@ struct GreyFrame {
   Image<uint8_t> image;  ///< one plane; colour is turned into grey
 };
 
+/// What a FrameSource passed over: frames that are broken or have pixels that scarf does not read, and places
+/// where the file is broken.
+struct PassedFrames {
+  uint64_t count = 0;
+  std::optional<Damage> first;
+};
+
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  /// The next frame in file order; nullopt at the end.
+  /// The next frame in file order; nullopt at the end. What is passed over of AEDAT is no error, unless
+  /// ReadOptions::strict says so, and the frames behind it follow.
   virtual Result<std::optional<GreyFrame>> read() = 0;
+  const PassedFrames& passed_over() const { return passed_over_; }
+
+ protected:
+  void pass_over(uint64_t byte, std::string what) {
+    if (passed_over_.count++ == 0) passed_over_.first = Damage{byte, std::move(what)};
+  }
+
+ private:
+  PassedFrames passed_over_;
 };
 
 /// An edge at the camera's trigger input.

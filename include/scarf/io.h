@@ -45,7 +45,7 @@ struct ReadOptions {
   TimeShift time_shift = TimeShift::none;
   /// Damage, unknown words and truncated bytes are errors that name the place.
   bool strict = false;
-  /// Order of the columns of text and of arrays without names, such as "txyp"; empty: the format's own.
+  /// Columns of text and arrays in their order ("txyp"), or by names ("t=/a/ts,x=/a/xs,..."); empty: its own.
   std::string columns = {};
   /// Unit of times where a format leaves it open: "s", "ms", "us", "ns"; empty: the format's own.
   std::string time_unit = {};

@@ -25,6 +25,8 @@ struct ReadReport {
   uint64_t dropped = 0;           ///< events left out by TimePolicy::drop
   uint64_t gaps = 0;              ///< places where the file shows that data is missing
   uint64_t unknown_words = 0;     ///< words or lines that the format does not define
+  uint64_t skipped = 0;           ///< records that the format has for other things than events (samples of
+                                  ///< frames and of the IMU, triggers), or marks as not valid: AEDAT 1 to 3
   uint64_t truncated_bytes = 0;   ///< bytes at the end that do not make a whole word, line or packet
   uint64_t damages = 0;           ///< broken places that reading went around
   std::optional<Damage> damage;   ///< the first of them

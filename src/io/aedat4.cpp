@@ -90,10 +90,9 @@ Result<Header> read_header(ByteReader& input) {
   const auto start = input.available();
   const std::string_view words(reinterpret_cast<const char*>(start.data()), start.size());
   if (!words.starts_with(kMagic)) {
-    return bad(
-        words.starts_with("#!AER-DAT")
-            ? "this is an older AEDAT than AEDAT4, which scarf does not read: convert it to AEDAT4 or text"
-            : "this is no AEDAT4: it does not begin with #!AER-DAT4.0");
+    return bad(words.starts_with("#!AER-DAT")
+                   ? "this is an older AEDAT than AEDAT4: leave out --format, or name its own"
+                   : "this is no AEDAT4: it does not begin with #!AER-DAT4.0");
   }
   if (start.size() < kMagic.size() + kSizeBytes) return bad("the file ends within its header");
   const auto size = load_little_endian<uint32_t>(start.data() + kMagic.size());

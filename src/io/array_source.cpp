@@ -10,6 +10,8 @@
 #include "core/text.h"
 #include "io/block_source.h"
 #include "io/event_tally.h"
+#include "io/named_columns.h"
+#include "io/rounding.h"
 #include "io/sensor_size.h"
 
 namespace scarf {
@@ -84,7 +86,7 @@ std::optional<int64_t> load_time(const NumpyType& type, int exponent, const uint
   if (is_float(type)) {
     const double value = load_float(type, at);
     const auto scale = static_cast<double>(power);
-    const double t = std::floor((exponent >= 0 ? value * scale : value / scale) + 0.5);
+    const double t = rounded(exponent >= 0 ? value * scale : value / scale);
     if (!(std::abs(t) < static_cast<double>(kMaxTime))) return std::nullopt;
     return static_cast<int64_t>(t);
   }
@@ -95,9 +97,7 @@ std::optional<int64_t> load_time(const NumpyType& type, int exponent, const uint
     if (std::abs(*value / 2) >= kMaxTime / power) return std::nullopt;
     t = *value * power;
   } else {
-    const int64_t below = *value % power < 0 ? 1 : 0;
-    const int64_t rest = *value % power + below * power;
-    t = *value / power - below + (rest >= power / 2 ? 1 : 0);
+    t = rounded_quotient(*value, power);
   }
   if (t <= -kMaxTime || t >= kMaxTime) return std::nullopt;
   return t;
@@ -319,19 +319,36 @@ Result<int> unit_of_times(const EventArrays& arrays, size_t rows, const ReadOpti
   return 6;
 }
 
+// The unit that a column's name says, as NumpyType::unit.
+std::string_view unit_named(const ColumnName& name) {
+  switch (name.time_exponent.value_or(1)) {
+    case 6:
+      return "s";
+    case 3:
+      return "ms";
+    case 0:
+      return "us";
+    case -3:
+      return "ns";
+    default:
+      return "";
+  }
+}
+
 // The numbers of a row, if there are as many as columns; 0 if they are not all of one event each.
 size_t columns_in_row(const NumpyHeader& header) {
   if (header.named || header.shape.size() != 2 || !is_number(header.fields[0].type)) return 0;
   return static_cast<size_t>(std::min<uint64_t>(header.shape[1], 1 << 16));
 }
 
-std::vector<ArrayColumn> named_columns(const NumpyHeader& header) {
+std::vector<ArrayColumn> known_columns(const NumpyHeader& header) {
   std::vector<ArrayColumn> columns;
   for (const NumpyField& field : header.fields) {
-    const Column content = column_named(field.name);
-    const bool usable = content != Column::skipped && content != Column::camera;
+    const ColumnName name = column_name(field.name);
+    const bool usable = name.column != Column::skipped && name.column != Column::camera;
     if (usable && field.count == 1 && is_number(field.type)) {
-      columns.push_back({content, 0, field.offset, field.type});
+      columns.push_back({name.column, 0, field.offset, field.type});
+      add_unit(columns.back(), field.name);
     }
   }
   return columns;
@@ -345,8 +362,14 @@ bool are_complete(const std::vector<ArrayColumn>& columns) {
 
 }  // namespace
 
+void add_unit(ArrayColumn& column, std::string_view name) {
+  if (column.content == Column::t && column.type.unit.empty()) {
+    column.type.unit = unit_named(column_name(name));
+  }
+}
+
 bool holds_events(const NumpyHeader& header, size_t columns) {
-  if (header.named) return header.shape.size() == 1 && are_complete(named_columns(header));
+  if (header.named) return header.shape.size() == 1 && are_complete(known_columns(header));
   return columns_in_row(header) == columns;
 }
 
@@ -363,18 +386,27 @@ Result<void> require_row_order(const NumpyHeader& header) {
 
 Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header,
                                      const ReadOptions& options) {
+  if (names_columns(options.columns)) {
+    std::vector<NamedArray> arrays;
+    arrays.push_back({"", header, std::move(bytes)});
+    return columns_by_name(std::move(arrays), options.columns);
+  }
   EventArrays events;
   events.named = header.named;
   events.rows = header.shape.empty() ? 0 : header.shape[0];
   size_t row_bytes = header.item_bytes;
   if (header.named) {
     if (!options.columns.empty()) {
-      return Error{ErrorCode::illegal_parameter, "the array names its columns; leave --columns out"};
+      return Error{
+          ErrorCode::illegal_parameter,
+          "the array names its columns; leave --columns out, or name fields, such as t=ts,x=x,y=y,p=on"};
     }
-    events.columns = named_columns(header);
+    events.columns = known_columns(header);
     if (!holds_events(header, 0)) {
-      return Error{ErrorCode::unrecognised,
-                   "the array's fields are not one each for t, x, y and p; rename them"};
+      return Error{
+          ErrorCode::unrecognised,
+          "the array's fields are not one each for t, x, y and p; rename them, or name them with --columns, "
+          "such as t=ts,x=x,y=y,p=on"};
     }
   } else {
     const auto columns = columns_from(options.columns.empty() ? "txyp" : options.columns);
@@ -400,6 +432,94 @@ Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header
   }
   if (row_bytes > ByteReader::kCapacity) return bad("the array's rows are too long");
   events.arrays.push_back({std::move(bytes), row_bytes});
+  return events;
+}
+
+namespace {
+
+// What may be named in an array, for messages.
+std::string columns_in(const NamedArray& array) {
+  if (!array.header.named) return array.name.empty() ? "[0] and so on" : array.name;
+  std::string list;
+  for (const NumpyField& field : array.header.fields) {
+    if (field.name.empty()) continue;
+    list += text(list.empty() ? "" : ", ", array.name, array.name.empty() ? "" : "/", field.name);
+  }
+  return list;
+}
+
+// The name of a field within the array that a name is of, empty for the array itself; nullopt: of another.
+std::optional<std::string_view> field_in(const NamedArray& array, std::string_view name) {
+  if (name == array.name) return std::string_view();
+  if (array.name.empty()) return name;
+  if (!name.starts_with(array.name) || name[array.name.size()] != '/') return std::nullopt;
+  return name.substr(array.name.size() + 1);
+}
+
+Result<ArrayColumn> column_in(const NamedArray& array, std::string_view field, std::optional<size_t> index) {
+  const NumpyHeader& header = array.header;
+  const std::string what = array.name.empty() ? "the array" : text("the array ", array.name);
+  if (auto r = require_row_order(header); !r) return r.error();
+  const auto found = std::find_if(header.fields.begin(), header.fields.end(),
+                                  [&](const NumpyField& f) { return f.name == field; });
+  const bool rows = header.shape.size() == 1 || (header.shape.size() == 2 && !header.named);
+  if (found == header.fields.end() || header.named == field.empty() || !rows || !is_number(found->type)) {
+    return bad(text(what, " has no column of numbers", field.empty() ? "" : " called ", field, "; there are ",
+                    columns_in(array)));
+  }
+  const uint64_t columns = header.named ? found->count : header.shape.size() == 2 ? header.shape[1] : 1;
+  if ((columns != 1 && !index) || index.value_or(0) >= columns) {
+    return bad(text(what, field.empty() ? "" : ", field ", field, ", has ", columns,
+                    " columns; name one by its number, such as ", array.name, field, "[0]"));
+  }
+  const size_t bytes = found->type.bytes;
+  return ArrayColumn{Column::skipped, 0, found->offset + index.value_or(0) * bytes, found->type};
+}
+
+}  // namespace
+
+Result<EventArrays> columns_by_name(std::vector<NamedArray> arrays, const std::string& columns) {
+  const auto named = named_columns_from(columns);
+  if (!named) return named.error();
+  EventArrays events;
+  events.named = true;
+  std::vector<size_t> taken;  // of `arrays`, in the order of events.arrays
+  for (size_t i = 0; i < named->size(); ++i) {
+    constexpr Column kOrder[] = {Column::t, Column::x, Column::y, Column::p};
+    const NamedColumn& wanted = (*named)[i];
+    const auto array = std::find_if(arrays.begin(), arrays.end(), [&](const NamedArray& a) {
+      return field_in(a, wanted.name).has_value();
+    });
+    if (array == arrays.end()) {
+      std::string list;
+      for (const NamedArray& a : arrays) list += text(list.empty() ? "" : ", ", columns_in(a));
+      return bad(text("there is no array or field ", wanted.name, "; there are ", list));
+    }
+    auto column = column_in(*array, *field_in(*array, wanted.name), wanted.index);
+    if (!column) return column.error();
+    const auto number = static_cast<size_t>(array - arrays.begin());
+    const auto before = std::find(taken.begin(), taken.end(), number);
+    column->array = static_cast<size_t>(before - taken.begin());
+    column->content = kOrder[i];
+    add_unit(*column, wanted.name.substr(wanted.name.rfind('/') + 1));
+    if (before == taken.end()) taken.push_back(number);
+    events.columns.push_back(*std::move(column));
+  }
+  events.rows = arrays[taken[0]].header.shape[0];
+  for (const size_t number : taken) {
+    NamedArray& array = arrays[number];
+    const std::vector<uint64_t>& shape = array.header.shape;
+    if (shape[0] != events.rows) {
+      return bad(text("the columns have different lengths: ", arrays[taken[0]].name, " ", events.rows, ", ",
+                      array.name, " ", shape[0]));
+    }
+    const uint64_t columns_of_row = shape.size() == 2 ? shape[1] : 1;
+    if (columns_of_row > ByteReader::kCapacity / std::max<size_t>(array.header.item_bytes, 1)) {
+      return bad("the array's rows are too long");
+    }
+    events.arrays.push_back(
+        {std::move(array.bytes), array.header.item_bytes * static_cast<size_t>(columns_of_row)});
+  }
   return events;
 }
 

@@ -39,6 +39,9 @@ struct EventArrays {
   bool named = false;  ///< what the columns hold is told by names, not by their order
 };
 
+/// Notes the unit of times that a column's name says, if its type says none.
+void add_unit(ArrayColumn& column, std::string_view name);
+
 /// Whether the array can hold all of an event, by names or, if it has `columns` columns, by their order.
 bool holds_events(const NumpyHeader& header, size_t columns);
 
@@ -48,6 +51,17 @@ bool may_hold_events(const NumpyHeader& header);
 /// The columns of one array, by its names or else by ReadOptions::columns (its own order: t, x, y, p).
 /// Errors: unrecognised, if no options would make events of it; bad_input, illegal_parameter.
 Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header, const ReadOptions& options);
+
+/// An array of several.
+struct NamedArray {
+  std::string name;
+  NumpyHeader header;
+  ByteReader bytes;  ///< behind the header
+};
+
+/// The columns that ReadOptions::columns names: arrays, fields of arrays ("events/ts"; of an array without a
+/// name just "ts") or columns of arrays and fields ("xy[0]"). Errors: bad_input, illegal_parameter.
+Result<EventArrays> columns_by_name(std::vector<NamedArray> arrays, const std::string& columns);
 
 /// Errors: bad_input, if the array is in column order (Fortran), naming what to do.
 Result<void> require_row_order(const NumpyHeader& header);

@@ -1,6 +1,7 @@
 #include "io/decompressor.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/text.h"
@@ -130,6 +131,61 @@ Error broken(std::string what) {
 }
 
 }  // namespace
+
+bool looks_like_zstd(std::span<const uint8_t> bytes) {
+  constexpr uint8_t kMagic[] = {0x28, 0xB5, 0x2F, 0xFD};
+  return bytes.size() >= std::size(kMagic) && std::equal(std::begin(kMagic), std::end(kMagic), bytes.begin());
+}
+
+namespace {
+
+// A file of frames that is read as its unpacked bytes.
+class PackedFile {
+ public:
+  PackedFile(std::unique_ptr<Codec> codec, ByteReader packed)
+      : codec_(std::move(codec)), packed_(std::move(packed)) {
+    codec_->restart();
+  }
+
+  Result<size_t> read_some(std::span<uint8_t> out) {
+    for (;;) {
+      if (const auto filled = packed_.fill(1); !filled) return filled.error();
+      const auto bytes = packed_.available();
+      if (bytes.empty() && whole_) return size_t{0};
+      if (bytes.empty() && ended_) return broken("the compressed bytes end too early");
+      ended_ = bytes.empty();
+      const auto step = codec_->step(bytes, out);
+      if (step.broken) return broken("the compressed bytes are damaged");
+      packed_.skip(step.taken);
+      whole_ = step.whole;
+      given_ += step.given;
+      if (given_ > kFreeBytes && given_ / kMaxRatio > packed_.consumed()) {
+        return broken(text("unpacks to more than ", kMaxRatio, " times its size"));
+      }
+      if (step.given > 0) return step.given;
+    }
+  }
+
+ private:
+  static constexpr uint64_t kFreeBytes = uint64_t{64} << 20;
+  static constexpr uint64_t kMaxRatio = 1000;
+
+  std::unique_ptr<Codec> codec_;
+  ByteReader packed_;
+  bool whole_ = false;  // a frame ended here
+  bool ended_ = false;  // nothing was left when the codec was asked last
+  uint64_t given_ = 0;
+};
+
+}  // namespace
+
+Result<ByteReader> Decompressor::unpack_file(Compression compression, ByteReader packed) {
+  auto made = make(compression);
+  if (!made) return made.error();
+  if (!made->codec_) return packed;
+  const auto file = std::make_shared<PackedFile>(std::move(made->codec_), std::move(packed));
+  return ByteReader([file](std::span<uint8_t> out) { return file->read_some(out); }, 0);
+}
 
 Decompressor::Decompressor(std::unique_ptr<Codec> codec) : codec_(std::move(codec)) {}
 Decompressor::Decompressor(Decompressor&&) noexcept = default;

@@ -8,11 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "io/byte_reader.h"
 #include "scarf/result.h"
 
 namespace scarf {
 
 enum class Compression { none, lz4, zstd, bz2 };
+
+/// Whether bytes begin as a Zstandard frame does.
+bool looks_like_zstd(std::span<const uint8_t> bytes);
 
 class Decompressor {
  public:
@@ -29,6 +33,10 @@ class Decompressor {
   /// Unpacks one block: LZ4 frames, Zstandard frames or a bzip2 stream. The bytes live until the next call
   /// (without compression they are `packed` itself). Errors: bad_input, saying what is wrong with the block.
   Result<std::span<const uint8_t>> unpack(std::span<const uint8_t> packed);
+
+  /// A whole file of frames, unpacked as it is read; memory does not depend on its length. It is broken, too,
+  /// if it unpacks to more than 64 MiB and 1,000 times its size. Errors: as make.
+  static Result<ByteReader> unpack_file(Compression compression, ByteReader packed);
 
   class Codec;
 

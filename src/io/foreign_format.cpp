@@ -16,13 +16,13 @@ constexpr Magic kMagics[] = {
     {"\xfd\x37zXZ\0"sv, "looks like xz: unpack it first"},
     {"\x28\xb5\x2f\xfd"sv, "looks like Zstandard: unpack it first"},
     {"7z\xbc\xaf\x27\x1c"sv, "looks like a 7z archive: unpack it first"},
+    {"#!AER-DAT1"sv, {}},
+    {"#!AER-DAT2"sv, {}},
+    {"#!AER-DAT3.1"sv, {}},
     {"#!AER-DAT4.0"sv, {}},
-    {"#!AER-DAT2"sv,
-     "this is AEDAT 2.0 (jAER, v2e), which scarf does not read: convert it to AEDAT4 with iniVation's DV or to "
-     "text, or let v2e write text (--dvs_text)"},
     {"#!AER-DAT"sv,
-     "this is AEDAT of another version than 4.0, which scarf does not read: convert it to AEDAT4 with "
-     "iniVation's DV, or to text"},
+     "this is AEDAT of another version than 1, 2, 3.1 and 4.0, which scarf does not read: convert it to AEDAT4 "
+     "with iniVation's DV, or to text"},
     {"\x89PNG"sv, "looks like a PNG image, not events"},
     {"\xff\xd8\xff"sv, "looks like a JPEG image, not events"},
 };

@@ -52,8 +52,10 @@ enum FormatOption : uint32_t {
 struct Format {
   std::string_view name;
   std::string_view title;
-  uint32_t options = 0;           ///< FormatOption
-  bool prophesee = false;         ///< may stand behind a Prophesee header
+  uint32_t options = 0;    ///< FormatOption
+  bool prophesee = false;  ///< may stand behind a Prophesee header
+  bool packed = false;     ///< may be compressed as a whole: recognise() is asked of files that otherwise are
+                        ///< not read as they are
   std::string_view missing = {};  ///< not built in: the library and Debian package that it needs
   bool (*recognise)(const Beginning&) = nullptr;  ///< none: by name, or by a Prophesee header
   Result<std::unique_ptr<EventSource>> (*open)(Input, const ReadOptions&) = nullptr;

@@ -5,6 +5,9 @@
 
 namespace scarf {
 
+extern const Format kAedat1Format;
+extern const Format kAedat2Format;
+extern const Format kAedat3Format;
 extern const Format kAedat4Format;
 extern const Format kCsvFormat;
 extern const Format kDatFormat;

@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "io/array_source.h"
 #include "io/known_formats.h"
+#include "io/named_columns.h"
 #include "io/zip_archive.h"
 
 namespace scarf {
@@ -22,12 +23,6 @@ constexpr size_t kMaxArrays = 256;
 Error bad(std::string message) {
   return {ErrorCode::bad_input, std::move(message)};
 }
-
-struct NamedArray {
-  std::string name;
-  NumpyHeader header;
-  ByteReader bytes;  // behind the header
-};
 
 // All arrays whose header is understood.
 Result<std::vector<NamedArray>> arrays_of(const ZipArchive& archive) {
@@ -75,6 +70,7 @@ EventArrays column_arrays(std::vector<NamedArray>& arrays) {
   events.rows = taken[0]->header.shape[0];
   for (size_t i = 0; i < taken.size(); ++i) {
     events.columns.push_back({contents[i], i, 0, taken[i]->header.fields[0].type});
+    add_unit(events.columns.back(), taken[i]->name);
     events.arrays.push_back({std::move(taken[i]->bytes), taken[i]->header.item_bytes});
   }
   return events;
@@ -110,7 +106,10 @@ Result<NamedArray*> choose(std::vector<NamedArray>& arrays, const ReadOptions& o
     const bool hope = may_hold_events(arrays);
     return Error{hope ? ErrorCode::bad_input : ErrorCode::unrecognised,
                  text("none of the arrays (", names_of(all), ") has fields or columns t, x, y, p",
-                      hope ? "; name the columns of one with --stream and --columns, such as txyp_" : "")};
+                      hope ? "; name the columns of one with --stream and --columns, such as txyp_, or "
+                             "arrays with --columns, "
+                             "such as t=ts,x=xs,y=ys,p=pol"
+                           : "")};
   }
   return bad(text("several arrays hold events: ", names_of(candidates), "; choose one with --stream"));
 }
@@ -121,6 +120,14 @@ Result<std::unique_ptr<EventSource>> open_npz(Input input, const ReadOptions& op
   if (!archive) return archive.error();
   auto arrays = arrays_of(*archive);
   if (!arrays) return arrays.error();
+  if (names_columns(options.columns)) {
+    if (!options.stream.empty()) {
+      return Error{ErrorCode::illegal_parameter, "--columns names the arrays; leave out --stream"};
+    }
+    auto events = columns_by_name(*std::move(arrays), options.columns);
+    if (!events) return events.error();
+    return open_arrays(kName, input.name, *std::move(events), options);
+  }
   if (options.stream.empty() && options.columns.empty()) {
     auto events = column_arrays(*arrays);
     if (!events.arrays.empty()) return open_arrays(kName, input.name, std::move(events), options);

@@ -92,12 +92,12 @@ Result<const Format*> recognise(Input& input) {
     const auto bytes = input.bytes.available().first(std::min(size, input.bytes.available().size()));
     const bool ended = input.bytes.ended() && bytes.size() == input.bytes.available().size();
     const Beginning beginning{bytes, ended, size == kLookAhead.back() || ended, input.path, input.folder};
-    if (!input.header && !foreign_format(beginning.bytes).empty()) break;
+    const bool foreign = !input.header && !foreign_format(beginning.bytes).empty();
     for (const Format* format : all_formats()) {
-      if (input.header && !format->prophesee) continue;
+      if ((input.header && !format->prophesee) || (foreign && !format->packed)) continue;
       if (format->recognise != nullptr && format->recognise(beginning)) return format;
     }
-    if (beginning.last) break;
+    if (beginning.last || foreign) break;
   }
   return unrecognised(input);
 }

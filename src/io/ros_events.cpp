@@ -4,6 +4,7 @@
 
 #include "core/little_endian.h"
 #include "core/text.h"
+#include "io/rounding.h"
 
 namespace scarf {
 namespace {
@@ -16,11 +17,6 @@ constexpr std::string_view kTrigger = "trigger";
 
 // Types of the words of libcaer_cmp, in the upper four bits.
 enum LibcaerCmp : uint32_t { kTimeHigh, kTimeLow, kAddrX, kAddrY, kVectBaseY, kVect8 };
-
-// Nanoseconds of 64 bits, so the microseconds are nearer to 0 than any limit.
-int64_t microseconds(uint64_t nanoseconds) {
-  return static_cast<int64_t>(nanoseconds / 1000);
-}
 
 std::string objection(const RosEvents& message) {
   if (message.big_endian) return "the message's events are big-endian, which scarf does not read";
@@ -87,8 +83,9 @@ void RosEventDecoder::decode_libcaer(const RosEvents& message, std::vector<Event
     if (t < previous && previous - t > kTimeMask / 2) turns += uint64_t{kTimeMask} + 1;
     previous = t;
     if ((data & 1) == 0) continue;  // marked as not valid
-    events.push_back({microseconds(message.time_base + (turns + t) * 1000), static_cast<uint16_t>(data >> 17),
-                      static_cast<uint16_t>(data >> 2 & 0x7FFF), static_cast<uint8_t>(data >> 1 & 1)});
+    events.push_back({microseconds_of(message.time_base + (turns + t) * 1000),
+                      static_cast<uint16_t>(data >> 17), static_cast<uint16_t>(data >> 2 & 0x7FFF),
+                      static_cast<uint8_t>(data >> 1 & 1)});
   }
 }
 
@@ -96,17 +93,17 @@ void RosEventDecoder::decode_libcaer_cmp(const RosEvents& message, std::vector<E
   constexpr uint32_t kCoordinate = 0x7FF;
   uint32_t high = 0;
   uint32_t low = 0;
-  int64_t t = microseconds(message.time_base);
+  int64_t t = microseconds_of(message.time_base);
   for (size_t at = 0; at + 2 <= message.payload.size(); at += 2) {
     const uint32_t word = load_little_endian<uint16_t>(message.payload.data() + at);
     switch (word >> 12) {
       case kTimeHigh:
         high = (word & 0xFFF) << 12;
-        t = microseconds(message.time_base + uint64_t{high | low} * 1000);
+        t = microseconds_of(message.time_base + uint64_t{high | low} * 1000);
         break;
       case kTimeLow:
         low = word & 0xFFF;
-        t = microseconds(message.time_base + uint64_t{high | low} * 1000);
+        t = microseconds_of(message.time_base + uint64_t{high | low} * 1000);
         break;
       case kAddrX:
         x_ = static_cast<uint16_t>(word & kCoordinate);
@@ -135,7 +132,7 @@ void RosEventDecoder::decode_libcaer_cmp(const RosEvents& message, std::vector<E
 void RosEventDecoder::decode_mono(const RosEvents& message, std::vector<Event>& events) {
   for (size_t at = 0; at + 8 <= message.payload.size(); at += 8) {
     const auto word = load_little_endian<uint64_t>(message.payload.data() + at);
-    events.push_back({microseconds(message.time_base + (word & 0xFFFF'FFFF)),
+    events.push_back({microseconds_of(message.time_base + (word & 0xFFFF'FFFF)),
                       static_cast<uint16_t>(word >> 32), static_cast<uint16_t>(word >> 48 & 0x7FFF),
                       static_cast<uint8_t>(word >> 63)});
   }
@@ -149,7 +146,7 @@ std::string RosEventDecoder::decode_array(const RosEvents& message, std::vector<
     event.y = cursor.number<uint16_t>();
     const auto seconds = cursor.number<uint32_t>();
     const auto nanoseconds = cursor.number<uint32_t>();
-    event.t = int64_t{seconds} * 1'000'000 + nanoseconds / 1000;
+    event.t = microseconds_of(uint64_t{seconds} * 1'000'000'000 + nanoseconds);
     event.p = cursor.number<uint8_t>() != 0 ? 1 : 0;
     if (cursor.failed()) return text("the message ends within event ", i, " of ", message.count);
     events.push_back(event);
@@ -174,7 +171,7 @@ std::string RosTriggerDecoder::decode(const RosEvents& message, std::vector<Trig
   if (message.encoding != kTrigger) return objection(message);
   for (size_t at = 0; at + 8 <= message.payload.size(); at += 8) {
     const auto word = load_little_endian<uint64_t>(message.payload.data() + at);
-    triggers.push_back({microseconds(message.time_base + (word & 0xFFFF'FFFF)),
+    triggers.push_back({microseconds_of(message.time_base + (word & 0xFFFF'FFFF)),
                         static_cast<uint16_t>(word >> 48 & 0x7FFF), static_cast<uint8_t>(word >> 63)});
   }
   return "";

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "io/ros_packed_messages.h"
 #include "io/sensor_size.h"
 #include "io/streams.h"
 
@@ -32,7 +33,7 @@ bool RosTopic::is_wanted(const RosMessage& message) const {
 
 Result<RosTopic> RosTopic::open(std::unique_ptr<RosBag> bag, const std::string& stream, Wanted wanted,
                                 std::string_view what) {
-  RosTopic topic(std::move(bag), wanted, what);
+  RosTopic topic(with_unpacked_messages(std::move(bag)), wanted, what);
   topic.named_ = !stream.empty();
   std::vector<StreamName> names;
   size_t messages = 0;

@@ -1,10 +1,18 @@
 // Reader of rosbag2: a database, or a folder with metadata.yaml and the files that it names, in order.
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "core/text.h"
+#include "io/decompressor.h"
 #include "io/known_formats.h"
 #include "io/ros_source.h"
 
@@ -19,24 +27,98 @@ constexpr std::string_view kTitle = "a ROS 2 bag (sqlite3)";
 constexpr std::string_view kDatabase = "SQLite format 3\0"sv;
 constexpr std::string_view kMetadata = "metadata.yaml";
 
+// A file that lives as long as this, and whose name nobody can foresee.
+class TemporaryFile {
+ public:
+  // Errors: io.
+  static Result<TemporaryFile> create() {
+    std::error_code failure;
+    const fs::path folder = fs::temp_directory_path(failure);
+    std::string path = (failure ? fs::path("/tmp") : folder) / "scarf-XXXXXX";
+    const int fd = mkostemp(path.data(), O_CLOEXEC);
+    if (fd < 0) return failed(path, "create");
+    return TemporaryFile(std::move(path), fd);
+  }
+  TemporaryFile(TemporaryFile&& other) noexcept
+      : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)) {}
+  TemporaryFile& operator=(TemporaryFile&&) = delete;
+  ~TemporaryFile() {
+    if (fd_ < 0) return;
+    close(fd_);
+    unlink(path_.c_str());
+  }
+
+  const std::string& path() const { return path_; }
+
+  // Errors: io.
+  Result<void> append(std::span<const uint8_t> bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t count = write(fd_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return failed(path_, "write");
+      bytes = bytes.subspan(static_cast<size_t>(count));
+    }
+    return {};
+  }
+
+ private:
+  TemporaryFile(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+  static Error failed(const std::string& path, std::string_view what) {
+    return {ErrorCode::io,
+            text("cannot ", what, " ", path, " to unpack the bag into (TMPDIR names another folder): ",
+                 std::generic_category().message(errno))};
+  }
+
+  std::string path_;
+  int fd_;
+};
+
+// SQLite reads files only. The file has no name any more when it is open.
+Result<std::unique_ptr<RosBag>> open_unpacked_database(ByteReader bytes) {
+  auto file = TemporaryFile::create();
+  if (!file) return file.error();
+  for (;;) {
+    if (const auto filled = bytes.fill(1); !filled) return filled.error();
+    if (bytes.available().empty()) break;
+    if (auto r = file->append(bytes.available()); !r) return r.error();
+    bytes.skip(bytes.available().size());
+  }
+  return open_rosbag2_database(file->path());
+}
+
+Result<std::unique_ptr<RosBag>> open_bytes(ByteReader bytes, const std::string& path) {
+  if (const auto filled = bytes.fill(kDatabase.size()); !filled) return filled.error();
+  const bool packed = looks_like_zstd(bytes.available());
+  if (packed) {
+    auto unpacked = Decompressor::unpack_file(Compression::zstd, std::move(bytes));
+    if (!unpacked) return unpacked.error();
+    bytes = *std::move(unpacked);
+    if (const auto filled = bytes.fill(kDatabase.size()); !filled) return filled.error();
+  }
+  if (is_mcap(bytes.available())) return open_mcap(std::move(bytes));
+  return packed ? open_unpacked_database(std::move(bytes)) : open_rosbag2_database(path);
+}
+
+// `path`: of a database, an MCAP, or either of them compressed as a whole.
 Result<std::unique_ptr<RosBag>> open_part(const std::string& path) {
   auto bytes = ByteReader::open(path);
   if (!bytes) return Error{bytes.error().code, text(path, ": ", bytes.error().message)};
-  if (const auto filled = bytes->fill(kDatabase.size()); !filled) return filled.error();
-  auto bag = is_mcap(bytes->available()) ? open_mcap(*std::move(bytes)) : open_rosbag2_database(path);
+  auto bag = open_bytes(*std::move(bytes), path);
   if (!bag) return Error{bag.error().code, text(path, ": ", bag.error().message)};
   return bag;
+}
+
+uint64_t size_of(const std::string& path) {
+  std::error_code failure;
+  const auto size = fs::file_size(path, failure);
+  return failure ? 0 : size;
 }
 
 // The files of a folder one after the other.
 class Rosbag2Folder final : public RosBag {
  public:
   explicit Rosbag2Folder(std::vector<std::string> paths) : paths_(std::move(paths)) {
-    for (const std::string& path : paths_) {
-      std::error_code ignored;
-      const auto size = fs::file_size(path, ignored);
-      total_ += ignored ? 0 : size;
-    }
+    for (const std::string& path : paths_) total_ += size_of(path);
   }
 
   Result<std::optional<RosMessage>> next() override {
@@ -50,12 +132,15 @@ class Rosbag2Folder final : public RosBag {
       }
       auto message = part_->next();
       if (!message || *message) return message;
-      done_ += part_->bytes_read();
+      done_ += size_of(paths_[next_ - 1]);
       part_.reset();
     }
   }
 
-  uint64_t bytes_read() const override { return done_ + (part_ ? part_->bytes_read() : 0); }
+  // Of a file that is compressed, more bytes are read than it has.
+  uint64_t bytes_read() const override {
+    return done_ + (part_ ? std::min(part_->bytes_read(), size_of(paths_[next_ - 1])) : 0);
+  }
   uint64_t bytes_total() const override { return total_; }
 
  private:
@@ -71,6 +156,16 @@ std::string_view without_quotes(std::string_view word) {
     word = word.substr(1, word.size() - 2);
   }
   return word;
+}
+
+// The metadata may name a file as it was before it was compressed, or unpacked.
+std::string as_it_is(const std::string& path) {
+  constexpr std::string_view kPacked = ".zstd";
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return path;
+  const std::string other =
+      path.ends_with(kPacked) ? path.substr(0, path.size() - kPacked.size()) : text(path, kPacked);
+  return fs::exists(other, ignored) ? other : path;
 }
 
 // Of the metadata only the list relative_file_paths matters: lines "- name" behind it.
@@ -89,13 +184,7 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
     } else if (in_list && word.starts_with("- ")) {
       // Files of a bag lie in its folder, wherever they were recorded.
       const fs::path file = fs::path(without_quotes(word.substr(2))).filename();
-      if (file.extension() == ".zstd") {
-        return Error{ErrorCode::bad_input, text(file.string(),
-                                                " is compressed as a whole: unpack it with zstd -d, and "
-                                                "take .zstd out of ",
-                                                kMetadata)};
-      }
-      paths.push_back((fs::path(folder) / file).string());
+      paths.push_back(as_it_is((fs::path(folder) / file).string()));
     } else {
       in_list = false;
     }
@@ -106,12 +195,22 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
   return paths;
 }
 
-Result<std::unique_ptr<RosBag>> open_bag(const Input& input) {
+Result<std::unique_ptr<RosBag>> open_bag(Input& input) {
   if (const auto path = require_path(input, kTitle); !path) return path.error();
-  if (!input.folder) return open_rosbag2_database(input.path);
+  if (!input.folder) return open_bytes(std::move(input.bytes), input.path);
   auto files = files_of(input.path);
   if (!files) return files.error();
   return std::unique_ptr<RosBag>(std::make_unique<Rosbag2Folder>(*std::move(files)));
+}
+
+// Whether a compressed file is a bag. Of a pipe only its beginning can be looked at.
+bool holds_bag(const Beginning& beginning) {
+  auto packed = beginning.path.empty() ? Result<ByteReader>(ByteReader::over(beginning.bytes))
+                                       : ByteReader::open(beginning.path);
+  if (!packed) return false;
+  auto bytes = Decompressor::unpack_file(Compression::zstd, *std::move(packed));
+  if (!bytes || !bytes->fill(kDatabase.size())) return false;
+  return starts_with(bytes->available(), kDatabase) || is_mcap(bytes->available());
 }
 
 bool recognise_rosbag2(const Beginning& beginning) {
@@ -119,8 +218,8 @@ bool recognise_rosbag2(const Beginning& beginning) {
     std::error_code ignored;
     return fs::exists(fs::path(beginning.path) / kMetadata, ignored);
   }
-  const std::string_view start(reinterpret_cast<const char*>(beginning.bytes.data()), beginning.bytes.size());
-  return start.starts_with(kDatabase);
+  if (looks_like_zstd(beginning.bytes)) return holds_bag(beginning);
+  return starts_with(beginning.bytes, kDatabase);
 }
 
 Result<std::unique_ptr<EventSource>> open_events_of_rosbag2(Input input, const ReadOptions& options) {
@@ -137,14 +236,16 @@ Result<std::unique_ptr<TriggerSource>> open_triggers_of_rosbag2(Input input, con
 
 }  // namespace
 
-const Format kRosbag2Format = {.name = kName,
-                               .title = "ROS 2 bag (sqlite3), or its folder",
-                               .options = kTakesStream,
+const Format kRosbag2Format = {
+    .name = kName,
+    .title = "ROS 2 bag (sqlite3), or its folder; compressed by file or message, too",
+    .options = kTakesStream,
 #ifndef SCARF_HAS_SQLITE
-                               .missing = "SQLite (Debian: libsqlite3-dev)",
+    .missing = "SQLite (Debian: libsqlite3-dev)",
 #endif
-                               .recognise = recognise_rosbag2,
-                               .open = open_events_of_rosbag2,
-                               .open_triggers = open_triggers_of_rosbag2};
+    .packed = true,
+    .recognise = recognise_rosbag2,
+    .open = open_events_of_rosbag2,
+    .open_triggers = open_triggers_of_rosbag2};
 
 }  // namespace scarf

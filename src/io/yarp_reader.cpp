@@ -12,6 +12,7 @@
 #include "io/columns.h"
 #include "io/known_formats.h"
 #include "io/look_ahead.h"
+#include "io/rounding.h"
 #include "io/sensor_size.h"
 #include "io/yarp_packet.h"
 
@@ -182,12 +183,12 @@ int64_t YarpReader::time_of(size_t record) const {
   if (!yarp_.spread) return packet_.stamp;
   const auto count = static_cast<int64_t>(packet_.records.size());
   const auto left = count - 1 - static_cast<int64_t>(record);
-  return packet_.stamp - packet_.duration * left / count;
+  return packet_.stamp + rounded_quotient(-packet_.duration * left, count);
 }
 
 int64_t YarpReader::microseconds(uint32_t ticks) {
   const int64_t unwrapped = ticks_.unwrapped(ticks);
-  return yarp_.microsecond_ticks ? unwrapped : unwrapped * 2 / 25;  // 80 ns
+  return yarp_.microsecond_ticks ? unwrapped : rounded_quotient(unwrapped * 2, 25);  // 80 ns
 }
 
 struct LogStart {

@@ -138,6 +138,44 @@ TEST(NpyReader, AsksWhatItCannotTell) {
               HasSubstr("4 columns, not 5"));
 }
 
+TEST(NpyReader, NamesOfOtherTools) {
+  const Bytes rows = numbers<int32_t>({258, 1, 2, 1, 70'000, 3, 4, 0});
+  for (const char* names : {"[('timestamp', '<i4'), ('x', '<i4'), ('y', '<i4'), ('polarity', '<i4')]",
+                            "[('T', '<i4'), ('X', '<i4'), ('Y', '<i4'), ('P', '<i4')]",
+                            "[('ts', '<i4'), ('xs', '<i4'), ('ys', '<i4'), ('is_increase', '<i4')]",
+                            "[('time_us', '<i4'), ('x', '<i4'), ('y', '<i4'), ('pol', '<i4')]"}) {
+    EXPECT_EQ(read_all(npy_file(names, "(2,)", rows)).events, kTwo) << names;
+  }
+  // A unit in a name counts as one of the type's.
+  const auto ns = read_all(npy_file("[('t_ns', '<i4'), ('x', '<i4'), ('y', '<i4'), ('on', '<i4')]", "(2,)",
+                                    numbers<int32_t>({500, 1, 2, 1, 1499, 3, 4, 0})));
+  ASSERT_EQ(ns.events.size(), 2u) << ns.error;
+  EXPECT_EQ(ns.events[0].t, 1);
+  EXPECT_EQ(ns.events[1].t, 1);
+}
+
+TEST(NpyReader, FieldsAreNamedWhereTheirNamesSayNothing) {
+  const auto named = [](const std::string& columns) {
+    // A time, two numbers in a field, and two polarities.
+    const Bytes rows = {2, 1, 0, 0, 1, 2, 1, 0, 0x70, 0x11, 1, 0, 3, 4, 0, 1};
+    return read_all(
+        npy_file("[('when', '<u4'), ('where', '|u1', (2,)), ('sign', '|u1'), ('p', '|u1')]", "(2,)", rows),
+        read_options("", columns));
+  };
+  EXPECT_EQ(named("t=when,x=where[0],y=where[1],p=sign").events, kTwo);
+  EXPECT_EQ(named("p=sign,y=where[1],x=where[0],t=when").events, kTwo);
+  EXPECT_THAT(named("").error, HasSubstr("--columns"));
+  EXPECT_THAT(named("t=wann,x=where[0],y=where[1],p=sign").error,
+              AllOf(HasSubstr("wann"), HasSubstr("when")));
+  EXPECT_THAT(named("t=when,x=where,y=where[1],p=sign").error, HasSubstr("2 columns"));
+  EXPECT_THAT(named("t=when,x=where[2],y=where[1],p=sign").error, HasSubstr("2 columns"));
+  EXPECT_THAT(named("t=when,x=where[0],y=where[1]").error, HasSubstr("each of t, x, y and p"));
+  EXPECT_THAT(named("t=when,x=where[0],y=where[1],p=sign,p=p").error, HasSubstr("each of t, x, y and p"));
+  const Bytes xytp = numbers<int32_t>({1, 2, 258, 1, 3, 4, 70'000, 0});
+  EXPECT_EQ(read_all(npy_file("'<i4'", "(2, 4)", xytp), read_options("", "t=[2],x=[0],y=[1],p=[3]")).events,
+            kTwo);
+}
+
 TEST(NpyReader, BrokenHeaders) {
   for (const char* type :
        {"[('t', '<u4'", "'<i4", "3", "[]]", "[('x', '<u9999999999')]", "[('a', 'V60000', (60000, 60000))]"}) {
@@ -192,6 +230,25 @@ TEST_F(NpzReader, AnArrayPerColumn) {
   EXPECT_EQ(r.error, "");
   EXPECT_EQ(r.events, kTwo);
   EXPECT_NE(read({p, t, x, {"y.npy", npy_file("'<u2'", "(1,)", {2, 0})}}).error, "");
+}
+
+TEST_F(NpzReader, ArraysAreNamedWhereTheirNamesSayNothing) {
+  const std::pair<std::string, Bytes> t{"when.npy",
+                                        npy_file("'<u4'", "(2,)", {2, 1, 0, 0, 0x70, 0x11, 1, 0})};
+  const std::pair<std::string, Bytes> xy{"where.npy", npy_file("'|u1'", "(2, 2)", {1, 2, 3, 4})};
+  const std::pair<std::string, Bytes> p{"more.npy",
+                                        npy_file("[('a', '|u1'), ('b', '|u1')]", "(2,)", {7, 1, 7, 0})};
+  const auto named = [&](const std::string& columns) { return read({t, xy, p}, read_options("", columns)); };
+  EXPECT_EQ(named("t=when,x=where[0],y=where[1],p=more/b").events, kTwo);
+  EXPECT_THAT(named("t=when,x=where[0],y=where[1],p=more/c").error,
+              AllOf(HasSubstr("c"), HasSubstr("more/b")));
+  EXPECT_THAT(named("t=when,x=where[0],y=where[1],p=more").error, HasSubstr("more/b"));
+  EXPECT_THAT(named("t=wann,x=where[0],y=where[1],p=more/b").error,
+              AllOf(HasSubstr("wann"), HasSubstr("when")));
+  EXPECT_THAT(read({t, xy, {"p.npy", npy_file("'|b1'", "(1,)", {1})}},
+                   read_options("", "t=when,x=where[0],y=where[1],p=p"))
+                  .error,
+              HasSubstr("different lengths"));
 }
 
 TEST_F(NpzReader, TooManyArraysAreRefused) {

@@ -81,6 +81,23 @@ std::vector<Bytes> other_seeds() {
   files.push_back(
       bytes_of("1 0.5 AE 3 \"abc\\0def\\0\\n\\\"x\\0\\\\ x\\0\"\n2 0.6 0.7 AE 1 \"\"\n3 0.7 AE 9 "
                "\"abcde\"\n4 0.8 AE 2 \"ab"));
+  Bytes aedat2 = bytes_of("#!AER-DAT2.0\r\n# AEChip: DAVIS240C\r\n");
+  Bytes aedat3 = bytes_of("#!AER-DAT3.1\r\n#Source 1: DVS128\r\n#!END-HEADER\r\n");
+  for (int i = 0; i < 60; ++i) {
+    // Big-endian: the bytes of rows and columns up to 255 first, and now and then any bits.
+    append_little_endian(aedat2, static_cast<uint32_t>(random()) & (i % 8 == 0 ? ~0U : 0x00F80F3FU));
+    append_little_endian(aedat2, static_cast<uint32_t>(random()));
+    if (i % 12 == 0) {
+      const auto type = static_cast<int16_t>(i == 24 ? 0 : 1);
+      for (const int16_t half : {type, int16_t{1}}) append_little_endian(aedat3, half);
+      for (const int32_t word : {8, 4, i / 30, 12, 12, 12}) append_little_endian(aedat3, word);
+    }
+    append_little_endian(aedat3, static_cast<uint32_t>(random()) & (i % 8 == 0 ? ~0U : 0x01FE01FFU));
+    append_little_endian(aedat3, static_cast<int32_t>(random() >> (i % 9 == 0 ? 0 : 12)));
+  }
+  aedat2.pop_back();
+  files.push_back(aedat2);
+  files.push_back(aedat3);
   files.push_back(
       bytes_of("%geometry:40,30\n1,2,1,100\n3,4,0,90\n50,4,0,95\n-1,4,1,7\n1,2,x,8\n1,2,1,9000000000\n1,2"));
   return files;

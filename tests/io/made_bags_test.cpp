@@ -95,6 +95,33 @@ TEST_F(MadeBags, Ros2FolderOfBigEndianArraysInTheOrderOfItsMetadata) {
   expect_written(read("rosbag2-folder"), "rosbag2");
 }
 
+TEST_F(MadeBags, Ros2CompressedByMessageOrByFile) {
+  for (const std::string kind : {"rosbag2-folder-db3-MESSAGE", "rosbag2-folder-db3-FILE",
+                                 "rosbag2-folder-mcap-MESSAGE", "rosbag2-folder-mcap-FILE"}) {
+    if (!make(kind, "rosbag2")) GTEST_SKIP() << kMissing;
+    expect_written(read(kind), "rosbag2");
+  }
+  // One file of either by itself.
+  const auto part = [&](const std::string& name) { return read_path(path(name), {}, 77); };
+  const std::vector<Event> first(events.begin(), events.begin() + 300);
+  EXPECT_EQ(part("rosbag2-folder-db3-MESSAGE/z_0.db3").events, first);
+  EXPECT_EQ(part("rosbag2-folder-db3-FILE/z_0.db3.zstd").events, first);
+  EXPECT_EQ(part("rosbag2-folder-mcap-FILE/z_0.mcap.zstd").events, first);
+  EXPECT_EQ(part("rosbag2-folder-mcap-MESSAGE/z_0.mcap").events, first);
+}
+
+TEST_F(MadeBags, Ros2CompressedBagsThatAreBroken) {
+  const std::string folder = "rosbag2-folder-db3-FILE";
+  if (!make(folder, "rosbag2")) GTEST_SKIP() << kMissing;
+  const std::string packed = path(folder + "/z_0.db3.zstd");
+  std::filesystem::resize_file(packed, std::filesystem::file_size(packed) / 2);
+  EXPECT_THAT(read(folder).error, AllOf(HasSubstr("z_0.db3.zstd"), HasSubstr("compressed bytes")));
+
+  // A bomb: far too much of nothing.
+  ASSERT_TRUE(make("zstd-bomb", "rosbag2"));
+  EXPECT_THAT(read("zstd-bomb").error, HasSubstr("1000 times its size"));
+}
+
 TEST_F(MadeBags, Ros2DatabaseOfBigEndianMessages) {
   if (!make("rosbag2-mono", "rosbag2")) GTEST_SKIP() << kMissing;
   expect_written(read("rosbag2-mono"), "rosbag2");
@@ -155,6 +182,39 @@ TEST_F(MadeBags, Aedat4FramesInGreyAndColour) {
   const auto end = (*source)->read();
   ASSERT_TRUE(end.ok());
   EXPECT_FALSE(*end);
+}
+
+// 10 bits per pixel become 8, in order; what is not read is told, and does not stop the others.
+TEST_F(MadeBags, Aedat4FramesOf16Bits) {
+  if (!make("aedat4-lz4-1", "aedat4")) GTEST_SKIP() << kMissing;
+  auto source = open_frames(path("aedat4-lz4-1"));
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  std::vector<GreyFrame> frames;
+  for (;;) {
+    auto frame = (*source)->read();
+    ASSERT_TRUE(frame.ok()) << frame.error().message;
+    if (!*frame) break;
+    frames.push_back(**std::move(frame));
+  }
+  ASSERT_EQ(frames.size(), 6u);
+  for (size_t i = 0; i < 48; ++i) {
+    EXPECT_EQ(frames[2].image.pixels[i], i * 1023 / 47 / 4);
+    // Of blue, green and red from 12i on, by fours: the colours are 3i, 3i + 1 and 3i + 2 in 8 bits.
+    EXPECT_EQ(frames[3].image.pixels[i], 3 * i + 1);
+    EXPECT_EQ(frames[4].image.pixels[i], i) << "four channels, each sample a quarter";
+    EXPECT_EQ(frames[5].image.pixels[i], i * 1365 / 256) << "as 16 bits, once a sample had so many";
+  }
+  EXPECT_EQ(frames[2].t, kUnixTime + 3000);
+  EXPECT_EQ((*source)->passed_over().count, 2u);
+  EXPECT_THAT((*source)->passed_over().first->what, HasSubstr("8SC1"));
+
+  ReadOptions strict;
+  strict.strict = true;
+  source = open_frames(path("aedat4-lz4-1"), strict);
+  ASSERT_TRUE(source.ok() && (*source)->read().ok() && (*source)->read().ok());
+  const auto refused = (*source)->read();
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("8SC1"));
 }
 
 TEST_F(MadeBags, Aedat4Triggers) {

@@ -63,12 +63,18 @@ class Message:
         return (bytes([0, self.order == "<", 0, 0]) if self.cdr else b"") + bytes(self.out)
 
 
+def finer(i, t):
+    """Nanoseconds that round to t microseconds, halves up."""
+    return t * 1000 + i * 37 % 1000 - 500
+
+
 def event_array(events, **kind):
     m = Message(**kind)
     m.header()
     m.numbers("III", HEIGHT, WIDTH, len(events))
-    for t, x, y, p in events:
-        m.numbers("HHIIB", x, y, t // 10**6, t % 10**6 * 1000 + 999, p)
+    for i, (t, x, y, p) in enumerate(events):
+        nanoseconds = finer(i, t)
+        m.numbers("HHIIB", x, y, nanoseconds // 10**9, nanoseconds % 10**9, p)
     return m.bytes()
 
 
@@ -83,14 +89,14 @@ def event_packet(seq, encoding, time_base, payload, **kind):
 
 
 def mono(seq, events, **kind):
-    base = events[0][0] * 1000
-    words = [p << 63 | y << 48 | x << 32 | (t * 1000 - base) for t, x, y, p in events]
+    base = finer(0, events[0][0])
+    words = [p << 63 | y << 48 | x << 32 | (finer(i, t) - base) for i, (t, x, y, p) in enumerate(events)]
     return event_packet(seq, "mono", base, struct.pack(f"<{len(words)}Q", *words), **kind)
 
 
 def triggers(seq, edges, **kind):
-    base = edges[0][0] * 1000
-    words = [value << 63 | source << 48 | (t * 1000 - base) for t, source, value in edges]
+    base = finer(0, edges[0][0])
+    words = [value << 63 | source << 48 | (finer(i, t) - base) for i, (t, source, value) in enumerate(edges)]
     return event_packet(seq, "trigger", base, struct.pack(f"<{len(words)}Q", *words), **kind)
 
 
@@ -162,18 +168,50 @@ def database(path, messages, type_name):
     base.close()
 
 
-def rosbag2_folder(path, events):
+def rosbag2_folder(path, events, storage="db3", mode=""):
+    """mode: MESSAGE or FILE, how the bag is compressed."""
     os.makedirs(path)
     arrays = [event_array(group, order=">", cdr=True) for group in groups(events)]
+    if mode == "MESSAGE":
+        arrays = [zstd(array) for array in arrays]
+    names = []
     # The second file sorts in front of the first: the order is that of the metadata.
-    for name, part in (("z_0.db3", arrays[:3]), ("a_1.db3", arrays[3:])):
-        database(os.path.join(path, name), part, "dvs_msgs/msg/EventArray")
+    for name, part in (("z_0." + storage, arrays[:3]), ("a_1." + storage, arrays[3:])):
+        file = os.path.join(path, name)
+        if storage == "db3":
+            database(file, part, "dvs_msgs/msg/EventArray")
+        else:
+            with open(file, "wb") as out:
+                out.write(mcap_of(part, "dvs_msgs/msg/EventArray"))
+        if mode == "FILE":
+            with open(file, "rb") as whole, open(file + ".zstd", "wb") as out:
+                out.write(zstd(whole.read()))
+            os.remove(file)
+            name += ".zstd"
+        names.append(name)
     with open(os.path.join(path, "metadata.yaml"), "w") as metadata:
         metadata.write("rosbag2_bagfile_information:\n  version: 4\n  storage_identifier: sqlite3\n"
-                       "  relative_file_paths:\n    - z_0.db3\n    - 'a_1.db3'\n  message_count: 5\n")
+                       f"  relative_file_paths:\n    - {names[0]}\n    - '{names[1]}'\n  message_count: 5\n"
+                       f"  compression_format: {'zstd' if mode else ''}\n  compression_mode: {mode}\n")
 
 
 # --- MCAP ----------------------------------------------------------------------------------------------------------
+def mcap_of(messages, type_name):
+    """Messages of one topic, without chunks."""
+    def text(word):
+        return u32(len(word)) + word.encode()
+
+    def operation(code, content):
+        return struct.pack("<BQ", code, len(content)) + content
+
+    out = b"\x89MCAP0\r\n" + operation(1, text("ros2") + text("test"))
+    out += operation(3, struct.pack("<H", 7) + text(type_name) + text("ros2msg") + text("..."))
+    out += operation(4, struct.pack("<HH", 1, 7) + text("/events") + text("cdr") + u32(0))
+    for i, message in enumerate(messages):
+        out += operation(5, struct.pack("<HIQQ", 1, i, i, i) + message)
+    return out + operation(15, u32(0)) + operation(2, struct.pack("<QQI", 0, 0, 0)) + b"\x89MCAP0\r\n"
+
+
 def mcap(events, compression):
     def text(word):
         return u32(len(word)) + word.encode()
@@ -242,8 +280,8 @@ def flat_buffer(identifier, fields):
     return struct.pack("<I", len(out)) + bytes(out)
 
 
-def frame(t, code, pixels):
-    return flat_buffer(b"FRME", [("q", t), None, None, ("q", t - 300), ("q", t + 300), ("b", code), ("h", 8), ("h", 6),
+def frame(t, code, pixels, rows=6):
+    return flat_buffer(b"FRME", [("q", t), None, None, ("q", t - 300), ("q", t + 300), ("b", code), ("h", 8), ("h", rows),
                                  None, None, (len(pixels), pixels)])
 
 
@@ -269,6 +307,14 @@ def aedat4(events, compression, streams):
     t = events[0][0]
     packets += packet(streams, frame(t, 0, bytes(range(48))))
     packets += packet(streams, frame(t + 1000, 16, bytes(range(3 * 48))))
+    if compression == "lz4":  # and pixels of 16 bits, as jAER writes them, between some that are not read
+        ten_bits = struct.pack("<48H", *(i * 1023 // 47 for i in range(48)))
+        packets += packet(streams, frame(t + 2000, 1, bytes(48)))
+        packets += packet(streams, frame(t + 3000, 2, ten_bits))
+        packets += packet(streams, frame(t + 4000, 2, ten_bits, rows=7))
+        packets += packet(streams, frame(t + 5000, 18, struct.pack("<144H", *range(0, 576, 4))))
+        packets += packet(streams, frame(t + 6000, 26, struct.pack("<192H", *range(192))))
+        packets += packet(streams, frame(t + 7000, 2, struct.pack("<48H", *(i * 1365 for i in range(48)))))
     # Sources of AEDAT4: 1 and 2 are edges of the external signal, 4 and 5 of the generator; 6 begins a frame.
     records = [[("q", t + i), ("b", source)] for i, source in enumerate((1, 2, 6, 4, 5))]
     packets += packet(streams + 1, flat_buffer(b"TRIG", [records]))
@@ -292,8 +338,10 @@ def main():
         data = mcap(events, words[1] if len(words) > 1 else "")
     elif words[0] == "aedat4":
         data = aedat4(events, words[1], streams=int(words[2]))
-    elif kind == "rosbag2-folder":
-        return rosbag2_folder(path, events)
+    elif words[:2] == ["rosbag2", "folder"]:
+        return rosbag2_folder(path, events, *words[2:])
+    elif kind == "zstd-bomb":
+        data = zstd(b"SQLite format 3\0" + bytes(2**28))
     elif kind == "rosbag2-mono":
         return database(path, [mono(i, group, order=">", cdr=True) for i, group in enumerate(groups(events))],
                         "event_camera_msgs/msg/EventPacket")

@@ -191,7 +191,15 @@ INSTANTIATE_TEST_SUITE_P(
                             270'001,
                             {0, 0, 0, 1},
                             {999'000, 38, 193, 1},
-                            "0e8b5a168fd6f024136faf24807558bec5ed65ebd3300b2712c1e2944fd69f4c"}),
+                            "0e8b5a168fd6f024136faf24807558bec5ed65ebd3300b2712c1e2944fd69f4c"},
+                      Known{"aedat/davis240_boxes_aedat2.aedat",
+                            "aedat2",
+                            {240, 180},
+                            162'771,
+                            82'944,
+                            {294'976'755, 83, 143, 0},
+                            {297'049'406, 6, 139, 0},
+                            "417ddf2f4147444a7fb285d0064f684d4807e107c01663819b4976834c6eea8e"}),
     [](const auto& test) { return std::string(test.param.format); });
 
 }  // namespace

@@ -38,6 +38,7 @@ Json json_of(const ReadReport& r) {
                {"dropped", r.dropped},
                {"gaps", r.gaps},
                {"unknown_words", r.unknown_words},
+               {"skipped", r.skipped},
                {"truncated_bytes", r.truncated_bytes},
                {"damages", r.damages}};
   if (r.damage) json["damage"] = {{"byte", r.damage->byte}, {"what", r.damage->what}};

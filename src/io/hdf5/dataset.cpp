@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
-#include <numeric>
 #include <utility>
 
 #include "core/text.h"
@@ -54,13 +52,13 @@ bool Dataset::exists(const Handle& file, const std::string& path) {
   return static_cast<bool>(open_object(file, path));
 }
 
-Result<Dataset> Dataset::open(const Handle& file, const std::string& path) {
+Result<Dataset> Dataset::open(const Handle& file, const std::string& path, const Across& across) {
   const Turn turn;
   Dataset made;
   made.path_ = path;
   made.dataset_ = open_object(file, path);
   if (!made.dataset_) return bad(text("has no dataset ", path));
-  if (auto r = made.look_at_layout(); !r) return r.error();
+  if (auto r = made.look_at_layout(across); !r) return r.error();
   // Opened again with a cache that holds a row of chunks; they would be decompressed again for each block of
   // rows.
   const Handle access = access_properties();
@@ -72,7 +70,7 @@ Result<Dataset> Dataset::open(const Handle& file, const std::string& path) {
   return made;
 }
 
-Result<void> Dataset::look_at_layout() {
+Result<void> Dataset::look_at_layout(const Across& across) {
   const Handle space(H5Dget_space(dataset_.id()));
   const int rank = H5Sget_simple_extent_ndims(space.id());
   if (rank < 1 || rank > 3) return bad(text(path_, " has ", rank, " dimensions, not 1 to 3"));
@@ -84,6 +82,8 @@ Result<void> Dataset::look_at_layout() {
   if (layout == H5D_VIRTUAL || H5Pget_external_count(creation.id()) != 0) {
     return bad(text(path_, " keeps its data in other files, which are not read; copy it with h5repack"));
   }
+  const bool by_matlab = H5Aexists(dataset_.id(), "MATLAB_class") > 0;
+  axis_ = rank == 2 && across && across(shape_, by_matlab) ? 1 : 0;
   cache_bytes_ = 0;
   if (layout != H5D_CHUNKED) return {};
 
@@ -100,7 +100,8 @@ Result<void> Dataset::look_at_layout() {
       chunk_bytes_ *= n;
   }
   cache_bytes_ = chunk_bytes_;
-  for (size_t i = 1; i < shape_.size(); ++i) {
+  for (size_t i = 0; i < shape_.size(); ++i) {
+    if (i == axis_) continue;
     const uint64_t beside = shape_[i] == 0 ? 1 : (shape_[i] - 1) / std::max<hsize_t>(chunk_[i], 1) + 1;
     cache_bytes_ =
         beside > kMaxChunkBytes || cache_bytes_ > kMaxChunkBytes ? kMaxChunkBytes + 1 : cache_bytes_ * beside;
@@ -115,32 +116,33 @@ Result<void> Dataset::look_at_layout() {
 }
 
 uint64_t Dataset::row_values() const {
-  return std::accumulate(shape_.begin() + 1, shape_.end(), uint64_t{1}, std::multiplies<>());
+  uint64_t values = 1;
+  for (size_t i = 0; i < shape_.size(); ++i) values *= i == axis_ ? 1 : shape_[i];
+  return values;
 }
 
 uint64_t Dataset::chunk_end(uint64_t row) const {
   if (chunk_.empty()) return rows();
-  const uint64_t begin = row - row % chunk_[0];
-  return chunk_[0] < rows() - begin ? begin + chunk_[0] : rows();
+  const uint64_t begin = row - row % chunk_[axis_];
+  return chunk_[axis_] < rows() - begin ? begin + chunk_[axis_] : rows();
 }
 
 template <class Use>
 void Dataset::for_each_chunk(uint64_t first, uint64_t count, Use use) const {
   std::vector<hsize_t> at(shape_.size(), 0);
-  for (at[0] = first - first % chunk_[0]; at[0] < first + count; at[0] += chunk_[0]) {
-    std::fill(at.begin() + 1, at.end(), 0);
-    for (;;) {
+  for (at[axis_] = first - first % chunk_[axis_]; at[axis_] < first + count; at[axis_] += chunk_[axis_]) {
+    for (bool more = true; more;) {
       hsize_t size = 0;
       const bool found = H5Dget_chunk_storage_size(dataset_.id(), at.data(), &size) >= 0;
       if (!use(found ? size : 0)) return;
       // The next chunk beside it, the last dimension first.
-      size_t i = shape_.size() - 1;
-      for (; i > 0; --i) {
+      more = false;
+      for (size_t i = shape_.size(); i-- > 0 && !more;) {
+        if (i == axis_) continue;
         at[i] += chunk_[i];
-        if (at[i] < shape_[i]) break;
-        at[i] = 0;
+        more = at[i] < shape_[i];
+        if (!more) at[i] = 0;
       }
-      if (i == 0) break;
     }
   }
 }
@@ -170,9 +172,9 @@ Result<void> Dataset::read(uint64_t first, uint64_t count, hid_t memory_type, vo
   const Turn turn;
   if (auto r = check_chunks(first, count); !r) return r;
   std::vector<hsize_t> start(shape_.size(), 0);
-  start[0] = first;
+  start[axis_] = first;
   std::vector<hsize_t> extent = shape_;
-  extent[0] = count;
+  extent[axis_] = count;
   const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr));
   const Handle place(H5Dget_space(dataset_.id()));
   if (H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr) < 0 ||
@@ -208,7 +210,7 @@ uint64_t Dataset::byte_of(uint64_t row) const {
     address = H5Dget_offset(dataset_.id());
   } else {
     std::vector<hsize_t> start(shape_.size(), 0);
-    start[0] = row - row % chunk_[0];
+    start[axis_] = row - row % chunk_[axis_];
     unsigned mask = 0;
     hsize_t size = 0;
     H5Dget_chunk_info_by_coord(dataset_.id(), start.data(), &mask, &address, &size);

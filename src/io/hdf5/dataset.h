@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,12 +24,17 @@ class Dataset {
   static bool exists(const Handle& file, const std::string& path);
   /// Errors: bad_input: none of this name, more than three dimensions or none, data in other files, chunks
   /// that are too large, a filter that is not installed. Chunks whose only filter is ECF come as they are.
-  static Result<Dataset> open(const Handle& file, const std::string& path);
+  /// `across` says of two dimensions whether the second one counts the rows, as MATLAB writes columns; none:
+  /// the first always does.
+  using Across = std::function<bool(const std::vector<hsize_t>& shape, bool by_matlab)>;
+  static Result<Dataset> open(const Handle& file, const std::string& path, const Across& across = {});
 
   const std::string& path() const { return path_; }
   hid_t id() const { return dataset_.id(); }
-  uint64_t rows() const { return shape_[0]; }
-  /// All dimensions; the first is rows().
+  uint64_t rows() const { return shape_[axis_]; }
+  /// Whether the second dimension counts the rows: read() then gives column after column.
+  bool across() const { return axis_ == 1; }
+  /// All dimensions.
   const std::vector<hsize_t>& shape() const { return shape_; }
   /// Values of a row.
   uint64_t row_values() const;
@@ -49,7 +55,7 @@ class Dataset {
   uint64_t byte_of(uint64_t row) const;
 
  private:
-  Result<void> look_at_layout();
+  Result<void> look_at_layout(const Across& across);
   Result<void> check_chunks(uint64_t first, uint64_t count) const;
   // The stored size of each chunk of these rows.
   template <class Use>
@@ -58,6 +64,7 @@ class Dataset {
   Handle dataset_;
   std::string path_;
   std::vector<hsize_t> shape_;
+  size_t axis_ = 0;             // the dimension that counts the rows
   std::vector<hsize_t> chunk_;  // empty: not in chunks
   uint64_t chunk_bytes_ = 0;    // when decompressed
   uint64_t cache_bytes_ = 0;

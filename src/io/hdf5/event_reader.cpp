@@ -1,11 +1,17 @@
 // Events of HDF5 files, in any of the layouts.
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/text.h"
 #include "io/block_source.h"
+#include "io/columns.h"
 #include "io/hdf5/event_table.h"
+#include "io/hdf5/find_columns.h"
 #include "io/hdf5/reader.h"
+#include "io/named_columns.h"
+#include "io/rounding.h"
 #include "io/sensor_size.h"
 
 namespace scarf::hdf5 {
@@ -22,19 +28,48 @@ struct TimeUnit {
   int64_t denominator = 1;
 };
 
-Result<TimeUnit> time_unit(const std::string& given, const Layout& layout, NumberType type) {
-  if (given == "s") return TimeUnit{1'000'000, 1};
-  if (given == "ms") return TimeUnit{1000, 1};
-  if (given == "us") return TimeUnit{1, 1};
-  if (given == "ns") return TimeUnit{1, 1000};
-  if (!given.empty())
-    return Error{ErrorCode::illegal_parameter, text("--time-unit is ", given, "; it is s, ms, us or ns")};
-  if (!is_float(type)) return TimeUnit{1, 1};
-  if (layout.family == Family::other && layout.shape == Shape::array) {
+TimeUnit unit_of(int exponent) {
+  TimeUnit unit;
+  for (; exponent > 0; --exponent) unit.numerator *= 10;
+  for (; exponent < 0; ++exponent) unit.denominator *= 10;
+  return unit;
+}
+
+// Whether the first times are floating-point numbers that could as well be seconds as anything smaller.
+bool are_ambiguous(EventTable& table) {
+  constexpr uint64_t kLook = 4096;
+  const auto count = static_cast<size_t>(std::min({kLook, table.rows(), table.chunk_end(0)}));
+  if (!is_float(table.time_type()) || count == 0 || !table.written(0, count) || table.read(0, count))
+    return false;
+  std::vector<int64_t> fractions(count);
+  std::vector<int64_t> others(count);
+  table.numbers(EventTable::t).transform(fractions, [](auto v) {
+    return static_cast<double>(v) != std::floor(static_cast<double>(v)) ? 1 : 0;
+  });
+  table.numbers(EventTable::t).transform(others, [](auto v) { return v != 0 ? 1 : 0; });
+  const auto one = [](int64_t v) { return v == 1; };
+  return std::none_of(fractions.begin(), fractions.end(), one) &&
+         std::any_of(others.begin(), others.end(), one);
+}
+
+Result<TimeUnit> time_unit(const std::string& given, Family family, const EventPlaces& places,
+                           EventTable& table) {
+  const auto exponent = time_exponent_from(given);
+  if (!exponent) return exponent.error();
+  if (*exponent) return unit_of(**exponent);
+  if (places.time_exponent) return unit_of(*places.time_exponent);
+  if (!is_float(table.time_type())) return TimeUnit{};
+  if (family == Family::other && places.fields[EventTable::t].column) {
     return Error{ErrorCode::illegal_parameter,
                  "the times are floating-point numbers of an unknown unit; give it with --time-unit"};
   }
-  return TimeUnit{1'000'000, 1};
+  if (family == Family::other && are_ambiguous(table)) {
+    return Error{
+        ErrorCode::bad_input,
+        "the times are floating-point numbers without fractions, so that seconds and microseconds look "
+        "alike; name the unit with --time-unit"};
+  }
+  return unit_of(6);
 }
 
 // kNoInteger for what is no time.
@@ -49,10 +84,7 @@ int64_t microseconds(T value, TimeUnit unit) {
     int64_t result = 0;
     if (unit.denominator == 1)
       return __builtin_mul_overflow(t, unit.numerator, &result) ? kNoInteger : result;
-    // The nearest, halves up.
-    const int64_t rest = (t % unit.denominator + unit.denominator) % unit.denominator;
-    const int64_t below = (t - rest) / unit.denominator;
-    return 2 * rest >= unit.denominator ? below + 1 : below;
+    return rounded_quotient(t, unit.denominator);
   }
 }
 
@@ -187,11 +219,34 @@ class Reader final : public BlockSource {
   std::vector<int64_t> x_, y_, t_, p_;  // none if the rows read are whole events
 };
 
-Error has_no_events(Family family) {
-  if (family != Family::other)
-    return {ErrorCode::bad_input, text("has no events as ", name_of(family), " has them")};
-  return {ErrorCode::unrecognised,
-          "this HDF5 file has no events where scarf looks for them; docs/FORMATS.md says where that is"};
+// Where the events of a family are, and the sensor size that the file says.
+struct Found {
+  EventPlaces places;
+  std::optional<SensorSize> sensor;
+};
+
+Result<Found> find(const Handle& file, Family family, const ReadOptions& options) {
+  const bool other = family == Family::other;
+  const bool search = other && (names_columns(options.columns) || !options.stream.empty());
+  const Layout* const layout = search ? nullptr : find_layout(file, family);
+  Found found;
+  if (layout != nullptr) {
+    const auto place = place_of(file, *layout, options.stream);
+    if (!place) return place.error();
+    auto places = places_of(*layout, *place, options.columns);
+    if (!places) return places.error();
+    found.places = *std::move(places);
+    if (layout->sensor != nullptr) found.sensor = layout->sensor(file, *place);
+  } else if (other) {
+    auto places = find_events(file, options);
+    if (!places) return places.error();
+    found.places = *std::move(places);
+    const std::string& where = found.places.where;
+    found.sensor = sensor_beside(file, where.ends_with('/') ? where : where + "/");
+  } else {
+    return Error{ErrorCode::bad_input, text("has no events as ", name_of(family), " has them")};
+  }
+  return found;
 }
 
 }  // namespace
@@ -205,16 +260,13 @@ Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& option
   if (auto r = require_path(input, "HDF5"); !r) return r.error();
   auto file = open_file(input.path);
   if (!file) return file.error();
-  const Layout* const layout = find_layout(*file, family);
-  if (layout == nullptr) return has_no_events(family);
-  const auto place = place_of(*file, *layout, options.stream);
-  if (!place) return place.error();
-  auto table = EventTable::open(*file, *layout, *place, options.columns);
+  const auto found = find(*file, family, options);
+  if (!found) return found.error();
+  auto table = EventTable::open(*file, found->places);
   if (!table) return table.error();
-  const auto unit = time_unit(options.time_unit, *layout, table->time_type());
+  const auto unit = time_unit(options.time_unit, family, found->places, *table);
   if (!unit) return unit.error();
-  std::optional<SensorSize> size;
-  if (layout->sensor != nullptr) size = layout->sensor(*file, *place);
+  const std::optional<SensorSize>& size = found->sensor;
   if (size) {
     const auto legal = checked_sensor(size->width, size->height, "the HDF5 file");
     if (!legal) return legal.error();

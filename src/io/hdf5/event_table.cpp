@@ -10,6 +10,7 @@
 namespace scarf::hdf5 {
 namespace {
 
+constexpr uint64_t kMaxColumns = 4096;
 constexpr size_t kSlot = 8;  // bytes of a member of a record in memory; the largest number has as many
 
 Error bad(std::string message) {
@@ -22,101 +23,90 @@ Error no_numbers(const std::string& path) {
 
 }  // namespace
 
-Result<EventTable> EventTable::open(const Handle& file, const Layout& layout, const std::string& place,
-                                    const std::string& columns) {
+Result<EventTable> EventTable::open(const Handle& file, const EventPlaces& places) {
   const Turn turn;
   EventTable table;
-  Result<void> opened;
-  switch (layout.shape) {
-    case Shape::columns:
-      opened = table.open_columns(file, layout, place);
-      break;
-    case Shape::array:
-      opened = table.open_array(file, layout, place, columns);
-      break;
-    case Shape::compound:
-      opened = table.open_records(file, layout, place);
-      break;
+  std::vector<std::pair<std::string, Fields>> datasets;
+  for (size_t i = 0; i < places.fields.size(); ++i) {
+    const FieldPlace& place = places.fields[i];
+    auto same = std::find_if(datasets.begin(), datasets.end(),
+                             [&](const auto& dataset) { return dataset.first == place.dataset; });
+    if (same == datasets.end()) same = datasets.insert(same, {place.dataset, {}});
+    same->second.emplace_back(i, &place);
   }
-  if (!opened) return opened.error();
-  if (layout.shape != Shape::array && !columns.empty()) {
-    return Error{ErrorCode::illegal_parameter,
-                 text("--columns is for arrays of four columns; ", place, " has names; leave it out")};
+  for (const auto& [path, fields] : datasets) {
+    if (auto r = table.open_part(file, fields); !r) return r.error();
   }
   table.compare_rows();
   return table;
 }
 
-Result<void> EventTable::open_columns(const Handle& file, const Layout& layout, const std::string& place) {
-  for (size_t i = 0; i < fields_.size(); ++i) {
-    auto dataset = Dataset::open(file, dataset_of(layout, place, i));
-    if (!dataset) return dataset.error();
-    const auto type = number_type(dataset->type().id());
-    if (!type) return no_numbers(dataset->path());
-    if (dataset->row_values() != 1)
-      return bad(text(dataset->path(), " is no column: it has further dimensions"));
-    parts_.push_back({*std::move(dataset), Handle(), memory_type(*type), size_of(*type), {}});
-    fields_[i] = {i, 0, *type};
-  }
-  return {};
+Result<void> EventTable::open_part(const Handle& file, const Fields& fields) {
+  const FieldPlace& first = *fields.front().second;
+  // A column or records by themselves are one column.
+  const size_t columns = first.column ? first.columns : 1;
+  auto dataset = Dataset::open(file, first.dataset, across_of(columns));
+  if (!dataset) return dataset.error();
+  const bool records = H5Tget_class(dataset->type().id()) == H5T_COMPOUND;
+  return records ? add_records(*std::move(dataset), fields) : add_numbers(*std::move(dataset), fields);
 }
 
-Result<void> EventTable::open_array(const Handle& file, const Layout& layout, const std::string& place,
-                                    const std::string& columns) {
-  auto dataset = Dataset::open(file, place);
-  if (!dataset) return dataset.error();
-  const auto type = number_type(dataset->type().id());
-  if (!type) return no_numbers(place);
-  if (dataset->shape().size() != 2 || dataset->shape()[1] != fields_.size()) {
-    return bad(text(place, " is no array of rows of four numbers"));
-  }
-  std::string order = columns;
-  for (const std::string_view name : layout.names) order += columns.empty() ? name : "";
-  if (order.empty()) {
-    return Error{ErrorCode::illegal_parameter,
-                 text(place, " does not name its columns; give their order with --columns, such as xytp")};
-  }
-  if (order.size() != fields_.size()) order.clear();
-  for (size_t i = 0; i < fields_.size(); ++i) {
-    const size_t column = order.find("xytp"[i]);
-    if (column == order.npos) {
-      return Error{ErrorCode::illegal_parameter,
-                   text("--columns ", columns, " does not name each of x, y, t, p once")};
+Result<void> EventTable::add_numbers(Dataset dataset, const Fields& fields) {
+  const std::string& path = dataset.path();
+  const auto type = number_type(dataset.type().id());
+  if (!type) return no_numbers(path);
+  const uint64_t columns = dataset.row_values();
+  const size_t bytes = size_of(*type);
+  for (const auto& [field, place] : fields) {
+    if (!place->member.empty()) return bad(text(path, " holds numbers, no records with ", place->member));
+    if (!place->column && columns != 1) return bad(text(path, " is no column: it has further dimensions"));
+    if (place->columns > 0 && (columns != place->columns || dataset.shape().size() != 2)) {
+      return bad(text(path, " has ", columns, " columns, not ", place->columns,
+                      "; name them with --columns, with _ for columns to skip"));
     }
-    fields_[i] = {0, column * size_of(*type), *type};
+    const size_t column = place->column.value_or(0);
+    if (column >= columns || columns > kMaxColumns) {
+      return bad(text(path, " has ", columns, " columns; there is none with the number ", column));
+    }
+    fields_[field] = {parts_.size(), column * bytes, *type};
   }
-  parts_.push_back({*std::move(dataset), Handle(), memory_type(*type), fields_.size() * size_of(*type), {}});
+  parts_.push_back(
+      {std::move(dataset), Handle(), memory_type(*type), static_cast<size_t>(columns) * bytes, {}});
   return {};
 }
 
-Result<void> EventTable::open_records(const Handle& file, const Layout& layout, const std::string& place) {
-  auto dataset = Dataset::open(file, place);
-  if (!dataset) return dataset.error();
-  if (dataset->row_values() != 1) return bad(text(place, " has more than one dimension"));
-  const Handle type = dataset->type();
-  if (H5Tget_class(type.id()) != H5T_COMPOUND) return bad(text(place, " does not hold records"));
-  if (dataset->ecf()) {
-    if (dataset->chunk_end(0) > kEcfMaxEvents) {
-      return bad(text(place, " has ECF chunks of more than ", kEcfMaxEvents, " events"));
+Result<void> EventTable::add_records(Dataset dataset, const Fields& fields) {
+  const std::string path = dataset.path();
+  if (dataset.row_values() != 1 || dataset.across()) return bad(text(path, " has more than one dimension"));
+  const Handle type = dataset.type();
+  if (dataset.ecf()) {
+    if (fields.size() != fields_.size())
+      return bad(text(path, " has whole events; take all columns from it"));
+    if (dataset.chunk_end(0) > kEcfMaxEvents) {
+      return bad(text(path, " has ECF chunks of more than ", kEcfMaxEvents, " events"));
     }
     fields_ = {Place{0, offsetof(Event, x), NumberType::u16}, Place{0, offsetof(Event, y), NumberType::u16},
                Place{0, offsetof(Event, t), NumberType::i64}, Place{0, offsetof(Event, p), NumberType::u8}};
-    parts_.push_back({*std::move(dataset), Handle(), H5I_INVALID_HID, sizeof(Event), {}});
+    parts_.push_back({std::move(dataset), Handle(), H5I_INVALID_HID, sizeof(Event), {}});
     return {};
   }
-  Handle record(H5Tcreate(H5T_COMPOUND, kSlot * fields_.size()));
-  for (size_t i = 0; i < fields_.size(); ++i) {
-    const std::string name(layout.names[i]);
+  Handle record(H5Tcreate(H5T_COMPOUND, kSlot * fields.size()));
+  size_t slot = 0;
+  for (const auto& [field, place] : fields) {
+    const std::string& name = place->member;
+    if (name.empty() || place->column)
+      return bad(text(path, " holds records; name a member, as in ", path, "/x"));
     const int member = H5Tget_member_index(type.id(), name.c_str());
-    if (member < 0) return bad(text("the records of ", place, " have no ", name));
+    if (member < 0) return bad(text("the records of ", path, " have no ", name));
     const Handle member_type(H5Tget_member_type(type.id(), static_cast<unsigned>(member)));
     const auto number = number_type(member_type.id());
-    if (!number) return no_numbers(text(place, ".", name));
-    fields_[i] = {0, kSlot * i, *number};
-    H5Tinsert(record.id(), name.c_str(), kSlot * i, memory_type(*number));
+    if (!number) return no_numbers(text(path, ".", name));
+    fields_[field] = {parts_.size(), slot, *number};
+    H5Tinsert(record.id(), name.c_str(), slot, memory_type(*number));
+    slot += kSlot;
   }
   const hid_t id = record.id();
-  parts_.push_back({*std::move(dataset), std::move(record), id, kSlot * fields_.size(), {}});
+  parts_.push_back({std::move(dataset), std::move(record), id, kSlot * fields.size(), {}});
   return {};
 }
 
@@ -137,6 +127,7 @@ uint64_t EventTable::chunk_end(uint64_t row) const {
 }
 
 std::optional<BrokenRows> EventTable::read(uint64_t first, size_t count) {
+  count_ = count;
   for (Part& part : parts_) {
     const Dataset& dataset = part.dataset;
     if (!dataset.ecf()) part.rows.resize(count * part.row_bytes);
@@ -171,6 +162,8 @@ bool EventTable::written(uint64_t first, uint64_t count) const {
 Numbers EventTable::numbers(Field field) const {
   const Place& place = fields_[field];
   const Part& part = parts_[place.part];
+  if (part.dataset.across())
+    return {part.rows.data() + place.offset * count_, size_of(place.type), place.type};
   const uint8_t* const rows =
       by_chunk() ? reinterpret_cast<const uint8_t*>(events_.data()) : part.rows.data();
   return {rows + place.offset, part.row_bytes, place.type};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/hdf5/dataset.h"
@@ -28,9 +29,8 @@ class EventTable {
  public:
   enum Field { x, y, t, p };
 
-  /// Errors: bad_input; illegal_parameter for the columns of an array.
-  static Result<EventTable> open(const Handle& file, const Layout& layout, const std::string& place,
-                                 const std::string& columns);
+  /// Errors: bad_input.
+  static Result<EventTable> open(const Handle& file, const EventPlaces& places);
 
   /// Rows that all datasets have.
   uint64_t rows() const { return rows_; }
@@ -62,18 +62,20 @@ class EventTable {
   };
   struct Place {
     size_t part = 0;
-    size_t offset = 0;
+    size_t offset = 0;  // in the row; across rows, of the column's first value if the rows read were one
     NumberType type = NumberType::u8;
   };
 
-  Result<void> open_columns(const Handle& file, const Layout& layout, const std::string& place);
-  Result<void> open_array(const Handle& file, const Layout& layout, const std::string& place,
-                          const std::string& columns);
-  Result<void> open_records(const Handle& file, const Layout& layout, const std::string& place);
+  using Fields = std::vector<std::pair<size_t, const FieldPlace*>>;  // of one dataset, with their numbers
+
+  Result<void> open_part(const Handle& file, const Fields& fields);
+  Result<void> add_numbers(Dataset dataset, const Fields& fields);
+  Result<void> add_records(Dataset dataset, const Fields& fields);
   void compare_rows();
   Result<void> read_ecf(const Part& part, uint64_t first, size_t count);
 
   std::vector<Part> parts_;
+  size_t count_ = 0;  // rows read
   std::array<Place, 4> fields_;
   uint64_t rows_ = 0;
   std::optional<std::string> disagreement_;

@@ -52,7 +52,8 @@ const Format kDsecFormat = hdf5_format<Family::dsec>("DSEC HDF5");
 const Format kRvtFormat = hdf5_format<Family::rvt>("HDF5 of RVT and the 1 Mpx data set");
 const Format kEventUtilsFormat = hdf5_format<Family::event_utils>("HDF5 of event_utils");
 // Without libhdf5 it stands for all of them.
-const Format kHdf5Format = hdf5_format<Family::other>(
-    SCARF_HDF5 ? "other HDF5: columns, records or an array" : "HDF5", kTakesColumns | kTakesTimeUnit);
+const Format kHdf5Format =
+    hdf5_format<Family::other>(SCARF_HDF5 ? "other HDF5: columns, records or an array" : "HDF5",
+                               kTakesColumns | kTakesTimeUnit | kTakesStream);
 
 }  // namespace scarf

@@ -1,5 +1,6 @@
 #include "io/hdf5/layouts.h"
 
+#include <algorithm>
 #include <charconv>
 #include <vector>
 
@@ -46,14 +47,6 @@ std::optional<SensorSize> size_of_m3ed(const Handle& file, const std::string& pl
   return size_from((*size)[0], (*size)[1]);
 }
 
-// Scalars beside the columns.
-std::optional<SensorSize> size_beside(const Handle& file, const std::string& place) {
-  const auto width = short_dataset(file, place + "width");
-  const auto height = short_dataset(file, place + "height");
-  if (!width || !height) return std::nullopt;
-  return size_from(width->front(), height->front());
-}
-
 // Height, width and perhaps channels of the images. Without images the converter of event_utils writes the
 // largest coordinates there, which is one pixel short; then the file is taken not to say.
 std::optional<SensorSize> size_of_event_utils(const Handle& file, const std::string&) {
@@ -79,24 +72,28 @@ constexpr Layout kLayouts[] = {
      .place = "prophesee/*/",
      .streams = kLeftRight,
      .sensor = size_of_m3ed},
-    {.family = Family::dsec, .shape = columns, .place = "events/", .mark = "t_offset", .sensor = size_beside},
+    {.family = Family::dsec,
+     .shape = columns,
+     .place = "events/",
+     .mark = "t_offset",
+     .sensor = sensor_beside},
     {.family = Family::dsec,
      .shape = columns,
      .place = "events/",
      .mark = "ms_to_idx",
-     .sensor = size_beside},
+     .sensor = sensor_beside},
     {.family = Family::rvt,
      .shape = columns,
      .place = "events/",
      .mark = "events/height",
-     .sensor = size_beside},
+     .sensor = sensor_beside},
     {.family = Family::event_utils,
      .shape = columns,
      .place = "events/",
      .names = {"xs", "ys", "ts", "ps"},
      .sensor = size_of_event_utils},
-    {.family = Family::other, .shape = columns, .place = "events/", .sensor = size_beside},
-    {.family = Family::other, .shape = columns, .place = "", .sensor = size_beside},
+    {.family = Family::other, .shape = columns, .place = "events/", .sensor = sensor_beside},
+    {.family = Family::other, .shape = columns, .place = "", .sensor = sensor_beside},
     {.family = Family::other, .shape = columns, .place = "", .names = {"xs", "ys", "ts", "ps"}},
     {.family = Family::other, .shape = compound, .place = "events"},
     {.family = Family::other, .shape = array, .place = "events", .names = {}},
@@ -106,6 +103,17 @@ std::string with_stream(std::string_view place, std::string_view stream) {
   std::string result(place);
   if (const size_t star = result.find('*'); star != result.npos) result.replace(star, 1, stream);
   return result;
+}
+
+// The dataset of field `i` (0 to 3: x, y, t, p).
+std::string dataset_of(const Layout& layout, const std::string& place, size_t i) {
+  return layout.shape == columns ? text(place, layout.names[i]) : place;
+}
+
+bool has_members(const Handle& type, const Layout& layout) {
+  return std::all_of(layout.names.begin(), layout.names.end(), [&](std::string_view name) {
+    return H5Tget_member_index(type.id(), std::string(name).c_str()) >= 0;
+  });
 }
 
 bool has_events(const Handle& file, const Layout& layout, const std::string& place) {
@@ -119,8 +127,9 @@ bool has_events(const Handle& file, const Layout& layout, const std::string& pla
   if (layout.family != Family::other) return true;
   const auto dataset = Dataset::open(file, place);
   if (!dataset) return true;  // what is wrong is said when it is opened
-  const bool records = H5Tget_class(dataset->type().id()) == H5T_COMPOUND;
-  return records == (layout.shape == compound);
+  const Handle type = dataset->type();
+  if (layout.shape == compound) return H5Tget_class(type.id()) == H5T_COMPOUND && has_members(type, layout);
+  return H5Tget_class(type.id()) != H5T_COMPOUND && dataset->shape().size() == 2;
 }
 
 std::vector<std::string_view> streams_of(const Handle& file, const Layout& layout) {
@@ -157,8 +166,55 @@ Result<std::string> place_of(const Handle& file, const Layout& layout, const std
                               : text("has no stream ", wanted, "; there is ", list)};
 }
 
-std::string dataset_of(const Layout& layout, const std::string& place, size_t i) {
-  return layout.shape == columns ? text(place, layout.names[i]) : place;
+std::optional<SensorSize> sensor_beside(const Handle& file, const std::string& place) {
+  const auto width = short_dataset(file, place + "width");
+  const auto height = short_dataset(file, place + "height");
+  if (!width || !height) return std::nullopt;
+  return size_from(width->front(), height->front());
+}
+
+Dataset::Across across_of(size_t columns) {
+  return [columns](const std::vector<hsize_t>& shape, bool by_matlab) {
+    if (columns > 0 && (shape[0] == columns) != (shape[1] == columns)) return shape[0] == columns;
+    return shape[0] == shape[1] ? by_matlab : shape[0] < shape[1];
+  };
+}
+
+EventPlaces places_of_array(const std::string& dataset, const std::vector<Column>& order) {
+  EventPlaces places;
+  places.where = dataset;
+  constexpr Column kFields[] = {Column::x, Column::y, Column::t, Column::p};
+  for (size_t i = 0; i < places.fields.size(); ++i) {
+    const auto found = std::find(order.begin(), order.end(), kFields[i]);
+    places.fields[i] = {dataset, "", static_cast<size_t>(found - order.begin()), order.size()};
+  }
+  return places;
+}
+
+Result<EventPlaces> places_of(const Layout& layout, const std::string& place, const std::string& given) {
+  if (layout.shape == array) {
+    std::string letters = given;
+    for (const std::string_view name : layout.names) letters += given.empty() ? name : "";
+    if (letters.empty()) {
+      return Error{ErrorCode::illegal_parameter,
+                   text(place, " does not name its columns; give their order with --columns, such as xytp")};
+    }
+    const auto order = columns_from(letters);
+    if (!order) return order.error();
+    return places_of_array(place, *order);
+  }
+  if (!given.empty()) {
+    return Error{ErrorCode::illegal_parameter,
+                 text("--columns ", given, " is for arrays without names; ",
+                      place.empty() ? "the root" : place, " has names; leave it out")};
+  }
+  EventPlaces places;
+  places.where = place;
+  for (size_t i = 0; i < places.fields.size(); ++i) {
+    const std::string member(layout.shape == compound ? layout.names[i] : std::string_view());
+    places.fields[i] = {dataset_of(layout, place, i), member, std::nullopt, 0};
+  }
+  return places;
 }
 
 }  // namespace scarf::hdf5

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "io/hdf5/library.h"
+#include "io/rounding.h"
 
 namespace scarf::hdf5 {
 
@@ -54,9 +55,9 @@ auto with_type(NumberType type, Use use) {
 /// What no number of 64 bits or no number at all becomes; no coordinate and no time.
 inline constexpr int64_t kNoInteger = std::numeric_limits<int64_t>::max();
 
-/// The nearest integer, of two equally near ones the even one; kNoInteger for what is 2^62 or further from 0.
+/// The nearest integer, halves up; kNoInteger for what is 2^62 or further from 0.
 inline int64_t nearest_integer(double value) {
-  return std::abs(value) < 0x1p62 ? static_cast<int64_t>(std::rint(value)) : kNoInteger;
+  return std::abs(value) < 0x1p62 ? static_cast<int64_t>(rounded(value)) : kNoInteger;
 }
 
 template <class T>

@@ -177,6 +177,38 @@ def mvsec(e, f):
         f[f"davis/{side}/image_raw_ts"] = np.array([1506117899.000001, 1506117899.25, 1506117900.999999])
 
 
+# x, y, t, p as other tools call them.
+NAMES = {
+    "names-dv": ("x", "y", "timestamp", "polarity"),
+    "names-loris": ("x", "y", "t", "is_increase"),
+    "names-upper": ("X", "Y", "T", "P"),
+    "names-plural-deep": ("xs", "ys", "timestamps", "polarities"),
+    "names-faery": ("x", "y", "time", "on"),
+}
+
+
+def matlab(e, f, what):
+    """As MATLAB 7.3 writes: doubles, the dimensions of a matrix in reverse, the class in an attribute."""
+    def save(path, values):
+        f[path] = values
+        f[path].attrs["MATLAB_class"] = np.bytes_("double")
+
+    doubles = {name: e[name].astype("f8") for name in "xytp"}
+    if what == "struct":  # a struct of columns, N x 1
+        for name in "xytp":
+            save(f"events/{name}", doubles[name][np.newaxis, :])
+        f["events"].attrs["MATLAB_class"] = np.bytes_("struct")
+    elif what == "vectors":  # in the root, 1 x N and in chunks
+        for name, field in (("ts", "t"), ("x", "x"), ("y", "y"), ("pol", "p")):
+            f.create_dataset(name, data=doubles[field][:, np.newaxis], chunks=(1000, 1), compression="gzip")
+            f[name].attrs["MATLAB_class"] = np.bytes_("double")
+    elif what == "matrix":  # N x 4
+        f.create_dataset("TD", data=np.stack([doubles[name] for name in "xytp"]), chunks=(1, 1000), compression="gzip")
+        f["TD"].attrs["MATLAB_class"] = np.bytes_("double")
+    elif what == "square":
+        save("TD", np.stack([doubles[name][:4] for name in "xytp"]))
+
+
 def write(layout, e, f):
     if layout.startswith("metavision-"):
         metavision(e, f, layout.split("-")[1])
@@ -224,6 +256,29 @@ def write(layout, e, f):
         f["events"] = np.stack([e[name].astype("i8") for name in "txyp"], axis=1)
     elif layout == "array-milliseconds":
         f["events"] = np.stack([e["x"], e["y"], e["p"], e["t"] / 1e3], axis=1).astype("f8")
+    elif layout in NAMES:
+        columns(f, "deep/er" if layout.endswith("deep") else "/events", e, names=list(NAMES[layout]))
+    elif layout.removesuffix("-records") in NAMES:
+        names = NAMES[layout.removesuffix("-records")]
+        records = np.zeros(len(e), list(zip(names, ("<u2", "<i4", "<i8", "?"))))
+        for name, field in zip(names, "xytp"):
+            records[name] = e[field]
+        f["recording/all" if "deep" in layout else "events"] = records
+    elif layout == "nanoseconds":
+        columns(f, "events", e, names=["x", "y", "time_x", "p"])
+        f["events/t_ns"] = e["t"] * 1000 + np.arange(len(e)) % 1000 - 500
+    elif layout == "two-tables":
+        columns(f, "left", e, names=["xs", "ys", "timestamps", "pol"])
+        columns(f, "right", e[::-1], names=["xs", "ys", "timestamps", "pol"])
+        f["left/width"], f["left/height"] = 1280, 720
+    elif layout == "foreign-names":
+        f["a/when"] = e["t"] / 1e6
+        f["a/where"] = np.stack([e["x"], e["y"]], axis=1)
+        f["b/sign"] = np.array(list(zip(e["p"], e["p"])), [("up", "u1"), ("down", "u1")])
+    elif layout == "whole-doubles":
+        columns(f, "/", e, types=("<u2", "<u2", "<f8", "u1"))
+    elif layout.startswith("matlab-"):
+        matlab(e, f, layout.removeprefix("matlab-"))
     elif layout == "odd-values":
         f["events/x"] = np.array([1, -1, 2, 3, 70000, 5], "i4")
         f["events/y"] = np.array([1, 1, 2, 3, 4, 5], "i4")
@@ -278,7 +333,7 @@ def main():
     elif layout == "ecf-chunks":
         ecf_chunks(e, out)
     else:
-        with h5py.File(out, "w") as f:
+        with h5py.File(out, "w", userblock_size=512 if layout.startswith("matlab-") else 0) as f:
             write(layout, e, f)
 
 
