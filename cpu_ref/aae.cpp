@@ -31,7 +31,8 @@ class Aae final : public ValueSurface {
       : ValueSurface(sensor),
         parameters_(parameters),
         grid_(block_grid(parameters, sensor)),
-        queues_(grid_.blocks()) {}
+        queues_(grid_.blocks()),
+        passed_(grid_.blocks()) {}
 
  private:
   void update(const Event& e) override {
@@ -44,17 +45,26 @@ class Aae final : public ValueSurface {
     for (auto& queue : queues_) queue.clear();
   }
 
-  // How often each pixel is drawn. Cuts the queues.
+  // How often each pixel is drawn; cut() is to follow.
   std::vector<int64_t> draws() {
     std::vector<int64_t> draws(pixels(), 0);
-    for (auto& queue : queues_) {
-      const std::vector<Event> events(queue.begin(), queue.end());
+    for (size_t i = 0; i < queues_.size(); ++i) {
+      const std::vector<Event> events(queues_[i].begin(), queues_[i].end());
       const BlockWalk walk = parameters_.esvo2 ? walk_block_esvo2(events) : walk_block(events);
       for (const Event& e : std::span(events).last(walk.drawn)) draws[pixel(e)] += 1;
-      if (!parameters_.keep)
-        queue.erase(queue.begin(), queue.end() - static_cast<std::ptrdiff_t>(walk.passed));
+      passed_[i] = walk.passed;
     }
     return draws;
+  }
+
+  // The queues keep what passed, once the picture is there.
+  template <class T>
+  Image<T> cut(Image<T> picture) {
+    for (size_t i = 0; i < queues_.size() && !parameters_.keep; ++i) {
+      auto& queue = queues_[i];
+      queue.erase(queue.begin(), queue.end() - static_cast<std::ptrdiff_t>(passed_[i]));
+    }
+    return picture;
   }
 
   std::vector<double> values(std::optional<int64_t>) override {
@@ -63,7 +73,13 @@ class Aae final : public ValueSurface {
     return values;
   }
 
-  Image<int64_t> raw_picture() override { return raw(draws()); }
+  Image<uint8_t> u8_picture(std::optional<int64_t> now) override {
+    return cut(ValueSurface::u8_picture(now));
+  }
+  Image<float> float_picture(std::optional<int64_t> now) override {
+    return cut(ValueSurface::float_picture(now));
+  }
+  Image<int64_t> raw_picture() override { return cut(raw(draws())); }
 
   Result<std::vector<Event>> kept_events() const override {
     std::vector<Event> events;
@@ -84,6 +100,7 @@ class Aae final : public ValueSurface {
   const AaeParameters parameters_;
   const BlockGrid grid_;
   std::vector<std::deque<Event>> queues_;  // by block in raster order; each oldest first
+  std::vector<size_t> passed_;             // of each queue's newest events, those that stay
 };
 
 }  // namespace

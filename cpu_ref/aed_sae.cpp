@@ -2,6 +2,7 @@
 // decays follows from how densely the recent events lie.
 #include <Eigen/Core>
 #include <deque>
+#include <new>
 #include <unsupported/Eigen/FFT>
 
 #include "cpu_ref/references.h"
@@ -52,7 +53,7 @@ class AedSae final : public ValueSurface {
         lambda_(parameters.lambda),
         filter_(make_filter(sensor)),
         last_(pixels(), kNeverFired) {
-    fft_.SetFlag(Eigen::FFT<double>::Unscaled);
+    prepare();
   }
 
  private:
@@ -69,6 +70,11 @@ class AedSae final : public ValueSurface {
     t_max_ = kNeverFired;
     last_.assign(pixels(), kNeverFired);
     received_.clear();
+  }
+
+  void prepare() {
+    fft_ = {};
+    fft_.SetFlag(Eigen::FFT<double>::Unscaled);
   }
 
   bool too_old(const Event& e) const { return age_of(e.t, t_max_) > window_; }
@@ -104,9 +110,14 @@ class AedSae final : public ValueSurface {
   Plane filtered(const std::vector<Event>& events) {
     Spectrum plane = Spectrum::Zero(sensor().height, sensor().width);
     for (const Event& e : events) plane(e.y, e.x) = 1;
-    transform(plane, /*inverse=*/false);
-    plane *= filter_;
-    transform(plane, /*inverse=*/true);
+    try {
+      transform(plane, /*inverse=*/false);
+      plane *= filter_;
+      transform(plane, /*inverse=*/true);
+    } catch (const std::bad_alloc&) {
+      prepare();  // Eigen would go on with what it has half prepared
+      throw;
+    }
     return plane.real();
   }
 

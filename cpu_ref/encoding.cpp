@@ -42,11 +42,13 @@ Image<float> cell_means(const Image<int64_t>& sums, const Image<int64_t>& counts
 
 Result<Image<float>> encode(const EncodingParameters& parameters, SensorSize sensor,
                             std::span<const Event> events) {
-  if (auto r = checked_encoding(parameters); !r) return r.error();
-  if (auto r = check_sensor(sensor); !r) return r.error();
-  const auto input = make_input(sensor, shape_of(parameters, sensor), events);
-  if (!input) return input.error();
-  return std::visit([&](const auto& p) { return encode_as(p, *input); }, parameters);
+  return as_result([&]() -> Result<Image<float>> {
+    if (auto r = checked_encoding(parameters); !r) return r.error();
+    if (auto r = check_sensor(sensor); !r) return r.error();
+    const auto input = make_input(sensor, shape_of(parameters, sensor), events);
+    if (!input) return input.error();
+    return std::visit([&](const auto& p) { return encode_as(p, *input); }, parameters);
+  });
 }
 
 }  // namespace scarf

@@ -19,22 +19,27 @@ class ReferenceFilter : public EventFilter {
   const FilterReport& report() const override { return report_; }
 
   Result<size_t> filter(std::span<const Event> events, std::vector<Event>& passing) override {
-    const auto batch = check_batch(events, sensor_, t_first_);
-    if (!batch) return batch.error();
-    t_first_ = batch->t_first;
-    const size_t before = passing.size();
-    for (const Event& e : events) {
-      if (!sensor_.contains(e)) {
-        ++report_.outside;
-        passing.push_back(e);
-      } else if (passes(e)) {
-        ++report_.passed;
-        passing.push_back(e);
-      } else {
-        ++report_.rejected;
+    return as_result([&]() -> Result<size_t> {
+      const auto batch = check_batch(events, sensor_, t_first_);
+      if (!batch) return batch.error();
+      const size_t before = passing.size();
+      // Room for all of them first, so that nothing fails half-way.
+      passing.resize(before + events.size());
+      passing.resize(before);
+      t_first_ = batch->t_first;
+      for (const Event& e : events) {
+        if (!sensor_.contains(e)) {
+          ++report_.outside;
+          passing.push_back(e);
+        } else if (passes(e)) {
+          ++report_.passed;
+          passing.push_back(e);
+        } else {
+          ++report_.rejected;
+        }
       }
-    }
-    return passing.size() - before;
+      return passing.size() - before;
+    });
   }
 
   Result<void> reset() override {
@@ -111,13 +116,15 @@ class ReferenceRefractory final : public ReferenceFilter {
 
 Result<std::unique_ptr<EventFilter>> make_reference_filter(const FilterParameters& parameters,
                                                            SensorSize sensor) {
-  if (auto r = checked_filter(parameters); !r) return r.error();
-  if (auto r = check_sensor(sensor); !r) return r.error();
-  if (const auto* support = std::get_if<SupportFilter>(&parameters)) {
-    return std::unique_ptr<EventFilter>(std::make_unique<ReferenceSupport>(*support, sensor));
-  }
-  const auto& refractory = std::get<RefractoryFilter>(parameters);
-  return std::unique_ptr<EventFilter>(std::make_unique<ReferenceRefractory>(refractory, sensor));
+  return as_result([&]() -> Result<std::unique_ptr<EventFilter>> {
+    if (auto r = checked_filter(parameters); !r) return r.error();
+    if (auto r = check_sensor(sensor); !r) return r.error();
+    if (const auto* support = std::get_if<SupportFilter>(&parameters)) {
+      return std::unique_ptr<EventFilter>(std::make_unique<ReferenceSupport>(*support, sensor));
+    }
+    const auto& refractory = std::get<RefractoryFilter>(parameters);
+    return std::unique_ptr<EventFilter>(std::make_unique<ReferenceRefractory>(refractory, sensor));
+  });
 }
 
 }  // namespace scarf

@@ -23,10 +23,12 @@ Result<Reference> make_checked(const T& parameters, SensorSize sensor) {
 
 Result<std::unique_ptr<Representation>> make_reference_representation(const Parameters& parameters,
                                                                       SensorSize sensor) {
-  const auto checked = checked_parameters(parameters);
-  if (!checked) return checked.error();
-  if (auto r = check_sensor(sensor); !r) return r.error();
-  return std::visit([sensor](const auto& p) { return make_checked(p, sensor); }, *checked);
+  return as_result([&]() -> Result<std::unique_ptr<Representation>> {
+    const auto checked = checked_parameters(parameters);
+    if (!checked) return checked.error();
+    if (auto r = check_sensor(sensor); !r) return r.error();
+    return std::visit([sensor](const auto& p) { return make_checked(p, sensor); }, *checked);
+  });
 }
 
 }  // namespace scarf

@@ -26,14 +26,15 @@ class ReferenceScarf final : public Scarf {
   const Geometry& geometry() const override { return geometry_; }
 
   Result<PushReport> push(std::span<const Event> events) override {
-    std::lock_guard lock(mutex_);
-    const auto batch = check_batch(events, geometry_.sensor(), t_first_);
-    if (!batch) return batch.error();
-    t_first_ = batch->t_first;
-    for (const Event& e : events) {
-      if (geometry_.sensor().contains(e)) store(e);
-    }
-    return PushReport{events.size(), batch->outside};
+    return locked([&]() -> Result<PushReport> {
+      const auto batch = check_batch(events, geometry_.sensor(), t_first_);
+      if (!batch) return batch.error();
+      t_first_ = batch->t_first;
+      for (const Event& e : events) {
+        if (geometry_.sensor().contains(e)) store(e);
+      }
+      return PushReport{events.size(), batch->outside};
+    });
   }
 
   Result<void> reset() override {
@@ -45,43 +46,55 @@ class ReferenceScarf final : public Scarf {
   }
 
   Pending<Image<int32_t>> count_image(PolarityMode mode) override {
-    std::lock_guard lock(mutex_);
-    return image<int32_t>(mode, [](int32_t count) { return count; });
+    return locked([&]() -> Pending<Image<int32_t>> {
+      return image<int32_t>(mode, [](int32_t count) { return count; });
+    });
   }
 
   Pending<Image<uint8_t>> u8_planes(PolarityMode mode) override {
-    if (auto r = check_dense_mode(mode); !r) return r.error();
-    std::lock_guard lock(mutex_);
-    return image<uint8_t>(mode, [this](int32_t count) { return u8_levels_(count); });
+    return locked([&]() -> Pending<Image<uint8_t>> {
+      if (auto r = check_dense_mode(mode); !r) return r.error();
+      return image<uint8_t>(mode, [this](int32_t count) { return u8_levels_(count); });
+    });
   }
 
   Pending<Image<float>> float_planes(PolarityMode mode) override {
-    if (auto r = check_dense_mode(mode); !r) return r.error();
-    std::lock_guard lock(mutex_);
-    return image<float>(mode, [this](int32_t count) { return f32_levels_(count); });
+    return locked([&]() -> Pending<Image<float>> {
+      if (auto r = check_dense_mode(mode); !r) return r.error();
+      return image<float>(mode, [this](int32_t count) { return f32_levels_(count); });
+    });
   }
 
   Pending<std::vector<Event>> active_events(EventOrder order) override {
-    std::lock_guard lock(mutex_);
-    std::vector<Event> events;
-    for (size_t patch = 0; patch < totals_.size(); ++patch) append(patch, /*active_only=*/true, events);
-    return ordered(std::move(events), order);
+    return locked([&]() -> Pending<std::vector<Event>> {
+      std::vector<Event> events;
+      for (size_t patch = 0; patch < totals_.size(); ++patch) append(patch, /*active_only=*/true, events);
+      return ordered(std::move(events), order);
+    });
   }
 
   Pending<std::vector<Event>> patch_events(int64_t patch, bool active_only) override {
-    if (auto r = check_patch(geometry_, patch); !r) return r.error();
-    std::lock_guard lock(mutex_);
-    std::vector<Event> events;
-    append(patch, active_only, events);
-    return events;
+    return locked([&]() -> Pending<std::vector<Event>> {
+      if (auto r = check_patch(geometry_, patch); !r) return r.error();
+      std::vector<Event> events;
+      append(patch, active_only, events);
+      return events;
+    });
   }
 
   Pending<Snapshot> snapshot() override {
-    std::lock_guard lock(mutex_);
-    return Snapshot{geometry_, totals_, slots_};
+    return locked([&]() -> Pending<Snapshot> { return Snapshot{geometry_, totals_, slots_}; });
   }
 
  private:
+  template <class Call>
+  std::invoke_result_t<Call&> locked(Call call) {
+    return as_result([&] {
+      std::lock_guard lock(mutex_);
+      return call();
+    });
+  }
+
   // The update rule: every patch whose field holds the event overwrites its oldest slot.
   void store(const Event& e) {
     const PatchRange columns = geometry_.x.patches_holding(e.x);
@@ -142,11 +155,13 @@ class ReferenceScarf final : public Scarf {
 }  // namespace
 
 Result<std::unique_ptr<Scarf>> make_reference_scarf(const Geometry& geometry, double accumulation) {
-  const auto checked = checked_geometry(geometry);
-  if (!checked) return checked.error();
-  const auto levels = make_levels(accumulation, geometry.capacity);
-  if (!levels) return levels.error();
-  return std::unique_ptr<Scarf>(std::make_unique<ReferenceScarf>(*checked, *levels));
+  return as_result([&]() -> Result<std::unique_ptr<Scarf>> {
+    const auto checked = checked_geometry(geometry);
+    if (!checked) return checked.error();
+    const auto levels = make_levels(accumulation, geometry.capacity);
+    if (!levels) return levels.error();
+    return std::unique_ptr<Scarf>(std::make_unique<ReferenceScarf>(*checked, *levels));
+  });
 }
 
 }  // namespace scarf

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/batch_check.h"
@@ -23,46 +24,49 @@ class Surface : public Representation {
   SensorSize sensor() const final { return sensor_; }
 
   Result<PushReport> push(std::span<const Event> events) final {
-    std::lock_guard lock(mutex_);
-    const auto batch = check_batch(events, sensor_, t_first_);
-    if (!batch) return batch.error();
-    t_first_ = batch->t_first;
-    for (const Event& e : events) {
-      if (sensor_.contains(e)) update(e);
-    }
-    return PushReport{events.size(), batch->outside};
+    return locked([&]() -> Result<PushReport> {
+      if (incomplete_) return incomplete();
+      const auto batch = check_batch(events, sensor_, t_first_);
+      if (!batch) return batch.error();
+      incomplete_ = true;  // until all events are in: there may be no memory for one
+      t_first_ = batch->t_first;
+      for (const Event& e : events) {
+        if (sensor_.contains(e)) update(e);
+      }
+      incomplete_ = false;
+      return PushReport{events.size(), batch->outside};
+    });
   }
 
   Result<void> reset() final {
-    std::lock_guard lock(mutex_);
-    t_first_.reset();
-    clear();
-    return {};
+    return locked([&]() -> Result<void> {
+      incomplete_ = true;
+      t_first_.reset();
+      clear();
+      incomplete_ = false;
+      return {};
+    });
   }
 
   Pending<Image<uint8_t>> u8_image(std::optional<int64_t> now) final {
-    std::lock_guard lock(mutex_);
-    return u8_picture(now);
+    return query([&]() -> Pending<Image<uint8_t>> { return u8_picture(now); });
   }
   Pending<Image<float>> float_image(std::optional<int64_t> now) final {
-    std::lock_guard lock(mutex_);
-    return float_picture(now);
+    return query([&]() -> Pending<Image<float>> { return float_picture(now); });
   }
   Pending<Image<int64_t>> raw_image() final {
-    std::lock_guard lock(mutex_);
-    return raw_picture();
+    return query([&]() -> Pending<Image<int64_t>> { return raw_picture(); });
   }
   Pending<std::vector<Event>> events() final {
-    std::lock_guard lock(mutex_);
-    return kept_events();
+    return query([&]() -> Pending<std::vector<Event>> { return kept_events(); });
   }
   Pending<std::vector<uint8_t>> state() final {
-    std::lock_guard lock(mutex_);
-    return state_bytes();
+    return query([&]() -> Pending<std::vector<uint8_t>> { return state_bytes(); });
   }
 
  protected:
-  // What a representation is. The lock is held while one of these runs; e lies inside the sensor.
+  // What a representation is. The lock is held while one of these runs; e lies inside the sensor. A picture
+  // that runs out of memory has changed nothing.
   virtual void update(const Event& e) = 0;
   virtual void clear() = 0;
   virtual Image<uint8_t> u8_picture(std::optional<int64_t> now) = 0;
@@ -87,9 +91,28 @@ class Surface : public Representation {
   }
 
  private:
+  template <class Call>
+  std::invoke_result_t<Call&> locked(Call call) {
+    return as_result([&] {
+      std::lock_guard lock(mutex_);
+      return call();
+    });
+  }
+  template <class Call>
+  std::invoke_result_t<Call&> query(Call call) {
+    return locked([&]() -> std::invoke_result_t<Call&> {
+      if (incomplete_) return incomplete();
+      return call();
+    });
+  }
+  static Error incomplete() {
+    return {ErrorCode::out_of_memory, "the state is incomplete, since a push ran out of memory; reset it"};
+  }
+
   const SensorSize sensor_;
   std::mutex mutex_;
   std::optional<int64_t> t_first_;
+  bool incomplete_ = false;  // until reset
 };
 
 // A surface whose pictures are values: 0 = black, 1 = white.

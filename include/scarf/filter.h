@@ -62,7 +62,8 @@ class EventFilter {
 
   virtual SensorSize sensor() const = 0;
   /// Appends the events that pass to `passing`, in their order, and returns how many these are. `events` must
-  /// not lie in `passing`. Errors: refused_batch as Representation::push; then nothing changed.
+  /// not lie in `passing`. Errors: refused_batch as Representation::push, out_of_memory; then nothing
+  /// changed.
   virtual Result<size_t> filter(std::span<const Event> events, std::vector<Event>& passing) = 0;
   /// Events since construction or reset.
   virtual const FilterReport& report() const = 0;
@@ -77,9 +78,11 @@ class FilterChain {
   explicit FilterChain(std::vector<std::unique_ptr<EventFilter>> filters) : filters_(std::move(filters)) {}
 
   bool empty() const { return filters_.empty(); }
+  /// Whether all filters have seen the same batches; see filter().
+  bool complete() const { return !incomplete_; }
   /// The events that pass all filters; valid until the next call and as long as `events` are.
-  /// Errors: as EventFilter::filter. If a filter behind the first refuses, those in front of it have seen the
-  /// batch: reset before going on.
+  /// Errors: as EventFilter::filter. If a filter behind the first fails, those in front of it have seen the
+  /// batch: every later call says so, until reset.
   Result<std::span<const Event>> filter(std::span<const Event> events);
   /// In the order of the filters.
   std::vector<FilterReport> reports() const;
@@ -89,6 +92,7 @@ class FilterChain {
   std::vector<std::unique_ptr<EventFilter>> filters_;
   std::vector<Event> front_;
   std::vector<Event> back_;
+  bool incomplete_ = false;
 };
 
 /// The definition of a filter, on the CPU (library scarf::cpu_ref). Errors: illegal_parameter as

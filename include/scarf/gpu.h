@@ -53,7 +53,9 @@ namespace vulkan {
 class Device;
 }
 
-/// A Vulkan device in use. Any number of streams may share it, from any threads.
+/// A Vulkan device in use. Any number of streams may share it, from any threads. It belongs to the process
+/// that made it: in a forked child every call of the context's streams, groups and so on returns an error
+/// (device), and their destructors leave the device alone; the child may make a context of its own.
 class GpuContext {
  public:
   /// Errors: device, if no device fits the options; the message lists every device and why it was rejected.
@@ -125,8 +127,8 @@ class GpuRepresentation : public virtual Representation {
 /// A SCARF state in device memory.
 class GpuScarf : public Scarf, public GpuRepresentation {};
 
-/// Errors: illegal_parameter as checked_geometry and make_levels; out_of_memory, naming the size and the
-/// limit, if the state does not fit the device.
+/// Errors: illegal_parameter as checked_geometry and make_levels, and for a null context; out_of_memory,
+/// naming the size and the limit, if the state does not fit the device.
 Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
                                                  const Geometry& geometry,
                                                  double accumulation = kDefaultAccumulation,
@@ -134,8 +136,8 @@ Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> con
                                                  std::span<const FilterParameters> filters = {});
 
 /// Any representation on a sensor, behind the filters, if there are any (time_window with `counts` cannot
-/// be). Errors: illegal_parameter as checked_parameters, and for a sensor that the representation cannot be
-/// on; device, if the device lacks something that it needs; out_of_memory.
+/// be). Errors: illegal_parameter as checked_parameters, for a sensor that the representation cannot be on,
+/// and for a null context; device, if the device lacks something that it needs; out_of_memory.
 Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(
     std::shared_ptr<GpuContext> context, const Parameters& parameters, SensorSize sensor,
     const GpuOptions& options = {}, std::span<const FilterParameters> filters = {});

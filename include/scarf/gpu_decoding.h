@@ -36,7 +36,8 @@ class GpuDecoder {
   /// front: all, or fewer with GpuOptions::WhenFull::would_block. Errors: would_block, if none were taken;
   /// refused_batch, as Representation::push for the events of these bytes: then none of them is stored, but
   /// the bytes count as read. More than max_batch() bytes are taken in batches of that size; what follows a
-  /// refused one is then not taken.
+  /// refused one is then not taken. After any other error it is not known how many bytes were decoded: the
+  /// representation is broken until its reset, and the decoder says so for good. Make a new one.
   virtual Result<size_t> push(std::span<const uint8_t> bytes) = 0;
   virtual size_t max_batch() const = 0;
 

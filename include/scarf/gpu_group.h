@@ -49,7 +49,7 @@ class GpuGroup {
   virtual uint64_t memory_bytes() const = 0;
 };
 
-/// A group without members.
+/// A group without members. With a null context it stays one: every call returns illegal_parameter.
 std::unique_ptr<GpuGroup> make_gpu_group(std::shared_ptr<GpuContext> context);
 
 }  // namespace scarf

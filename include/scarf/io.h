@@ -63,8 +63,8 @@ class EventSource {
   virtual std::string_view format() const = 0;
   /// Sensor size, from the file or from the options; nullopt if neither says. Without it no event is outside.
   virtual std::optional<SensorSize> sensor() const = 0;
-  /// Reads up to out.size() events (at least 1) in file order; 0 means the end of the stream. Fewer than
-  /// out.size() do not: a pipe's events are handed out as they come.
+  /// Reads up to out.size() events (at least 1) in file order; 0 means the end of the stream, fewer do not: a
+  /// pipe's events come as they are there. After out_of_memory nothing is read any more: open it again.
   virtual Result<size_t> read(std::span<Event> out) = 0;
   virtual const ReadReport& report() const = 0;
   /// Bytes consumed so far and size of the file (0 if unknown, as for a pipe), for progress displays.
@@ -101,7 +101,7 @@ class EventSink {
  public:
   virtual ~EventSink() = default;
   /// Errors: io; bad_input for an event that the format cannot hold, naming it (docs/FORMATS.md says what
-  /// each can). The events before it are written.
+  /// each can): the events before it are written. After out_of_memory nothing is written any more.
   virtual Result<void> write(std::span<const Event> events) = 0;
   /// Completes the file. It is written beside its place and appears there now; destroyed without finish(), an
   /// EventSink leaves no file.

@@ -51,7 +51,7 @@ class Replay {
 
   /// Appends events (any number). Those outside the sensor are counted and dropped.
   /// Errors: refused_batch as Representation::push; then nothing of the batch is used. Any other error is
-  /// returned by every later call.
+  /// returned by every later call, unless no event had been used yet.
   virtual Result<PushReport> push(std::span<const Event> events) = 0;
   /// Asks for a picture of the state after everything pushed so far. Errors: as push.
   virtual Result<void> frame() = 0;
@@ -67,8 +67,8 @@ class Replay {
 /// T is uint8_t for 8-bit brightness (Scarf::u8_image), float for brightness (Scarf::float_image), int32_t
 /// for counts of events (Scarf::count_image); both polarities alike. The pictures have the same bits as
 /// those of a Scarf at these places of the stream.
-/// Errors: illegal_parameter as checked_geometry and make_levels, and for options out of range;
-/// out_of_memory, naming size and limit, if a picture or the state does not fit the device.
+/// Errors: illegal_parameter as checked_geometry and make_levels, for options out of range and a null
+/// context; out_of_memory, naming size and limit, if a picture or the state does not fit the device.
 template <class T>
 Result<std::unique_ptr<Replay>> make_gpu_replay(std::shared_ptr<GpuContext> context, const Geometry& geometry,
                                                 TakeReplayFrame<T> take,

@@ -47,7 +47,8 @@ class Representation {
 
   /// Appends a batch (any size, 0 included). Events outside the sensor are counted and dropped.
   /// Errors: refused_batch, naming the event, if an event inside the sensor has p > 1 or is 2^48 us or more
-  /// away from the stream's first event; then nothing of the batch is stored.
+  /// away from the stream's first event; then nothing of the batch is stored. After any other error (such as
+  /// out_of_memory) that is so as well, or part of it is stored: then every call says so until reset().
   virtual Result<PushReport> push(std::span<const Event> events) = 0;
 
   /// Empties the state, as if newly made.

@@ -1,7 +1,14 @@
 // Errors as values: a function that can fail because of its caller or of the world returns a Result.
+//
+// No function of scarf that returns a Result or a Pending throws for lack of memory: it returns
+// out_of_memory. Others may throw std::bad_alloc. Then they have changed nothing, but for simulations and
+// digests, which are to be made anew.
 #pragma once
 
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -64,5 +71,37 @@ class [[nodiscard]] Result<void> {
   Error error_;
   bool ok_ = true;
 };
+
+/// The host has no more memory, as an Error. Needs none itself: without room for the sentence, the message is
+/// shorter.
+inline Error host_out_of_memory() noexcept {
+  try {
+    return {ErrorCode::out_of_memory,
+            "the host has no more memory; use smaller batches or geometries, or fewer streams at a time"};
+  } catch (const std::bad_alloc&) {
+    return {ErrorCode::out_of_memory, "out of memory"};  // held by the string itself
+  }
+}
+
+/// A copy of an error that is to be remembered. Keeps the code if there is no memory for the message.
+inline Error copy_of(const Error& error) noexcept {
+  try {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return {error.code, "out of memory"};
+  }
+}
+
+/// What `function` returns, which is a Result or a Pending; out_of_memory if it throws for lack of memory.
+template <class Function>
+std::invoke_result_t<Function&> as_result(Function&& function) {
+  try {
+    return function();
+  } catch (const std::bad_alloc&) {
+    return host_out_of_memory();
+  } catch (const std::length_error&) {  // of a container that is to be larger than any memory
+    return host_out_of_memory();
+  }
+}
 
 }  // namespace scarf

@@ -100,14 +100,16 @@ const EncodingInfo& info_of(const EncodingParameters& parameters) {
 }
 
 Result<EncodingParameters> parse_encoding(const std::string& words) {
-  const auto named = split_words("encoding", words);
-  if (!named) return named.error();
-  const auto parameters = read_alternative<EncodingParameters>("encoding", encodings(), *named);
-  return parameters ? checked_encoding(*parameters) : parameters;
+  return as_result([&]() -> Result<EncodingParameters> {
+    const auto named = split_words("encoding", words);
+    if (!named) return named.error();
+    const auto parameters = read_alternative<EncodingParameters>("encoding", encodings(), *named);
+    return parameters ? checked_encoding(*parameters) : parameters;
+  });
 }
 
 Result<EncodingParameters> checked_encoding(const EncodingParameters& parameters) {
-  return checked_alternative(parameters);
+  return as_result([&]() -> Result<EncodingParameters> { return checked_alternative(parameters); });
 }
 
 EncodingShape shape_of(const EncodingParameters& parameters, SensorSize sensor) {

@@ -37,25 +37,35 @@ const FilterInfo& info_of(const FilterParameters& parameters) {
 }
 
 Result<FilterParameters> parse_filter(const std::string& words) {
-  const auto named = split_words("filter", words);
-  if (!named) return named.error();
-  const auto parameters = read_alternative<FilterParameters>("filter", filters(), *named);
-  return parameters ? checked_filter(*parameters) : parameters;
+  return as_result([&]() -> Result<FilterParameters> {
+    const auto named = split_words("filter", words);
+    if (!named) return named.error();
+    const auto parameters = read_alternative<FilterParameters>("filter", filters(), *named);
+    return parameters ? checked_filter(*parameters) : parameters;
+  });
 }
 
 Result<FilterParameters> checked_filter(const FilterParameters& parameters) {
-  return checked_alternative(parameters);
+  return as_result([&] { return checked_alternative(parameters); });
 }
 
 Result<std::span<const Event>> FilterChain::filter(std::span<const Event> events) {
-  for (const auto& filter : filters_) {
-    back_.clear();
-    const auto kept = filter->filter(events, back_);
-    if (!kept) return kept.error();
-    std::swap(front_, back_);
-    events = front_;
-  }
-  return events;
+  return as_result([&]() -> Result<std::span<const Event>> {
+    if (incomplete_) {
+      return Error{ErrorCode::refused_batch,
+                   "the filters are incomplete, since one behind the first failed; reset them"};
+    }
+    for (const auto& filter : filters_) {
+      back_.clear();
+      const auto kept = filter->filter(events, back_);
+      if (!kept) return kept.error();
+      std::swap(front_, back_);
+      events = front_;
+      incomplete_ = true;  // until all have seen the batch
+    }
+    incomplete_ = false;
+    return events;
+  });
 }
 
 std::vector<FilterReport> FilterChain::reports() const {
@@ -68,6 +78,7 @@ Result<void> FilterChain::reset() {
   for (const auto& filter : filters_) {
     if (auto r = filter->reset(); !r) return r;
   }
+  incomplete_ = false;
   return {};
 }
 

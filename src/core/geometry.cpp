@@ -158,33 +158,38 @@ PatchRange GridAxis::patches_holding(int32_t v) const {
 }
 
 Result<Geometry> make_geometry(Preset preset, SensorSize sensor, const PresetParameters& parameters) {
-  for (const auto& [name, value] : {std::pair{"width", sensor.width}, std::pair{"height", sensor.height}}) {
-    if (value < 1 || value > kMaxSensorSize) return out_of_range(text("sensor ", name), value, "1 to 16384");
-  }
-  const auto p = checked_parameters(preset, parameters);
-  if (!p) return p.error();
-  switch (preset) {
-    case Preset::paper:
-      return paper(sensor, *p);
-    case Preset::light:
-      return light(sensor, *p);
-    case Preset::event_driven:
-      return event_driven(sensor, *p);
-    case Preset::event_driven_flex:
-      return event_driven_flex(sensor, *p);
-    case Preset::explicit_:
-      break;
-  }
-  return illegal("preset explicit needs its thirteen integers: pass them to checked_geometry");
+  return as_result([&]() -> Result<Geometry> {
+    for (const auto& [name, value] : {std::pair{"width", sensor.width}, std::pair{"height", sensor.height}}) {
+      if (value < 1 || value > kMaxSensorSize)
+        return out_of_range(text("sensor ", name), value, "1 to 16384");
+    }
+    const auto p = checked_parameters(preset, parameters);
+    if (!p) return p.error();
+    switch (preset) {
+      case Preset::paper:
+        return paper(sensor, *p);
+      case Preset::light:
+        return light(sensor, *p);
+      case Preset::event_driven:
+        return event_driven(sensor, *p);
+      case Preset::event_driven_flex:
+        return event_driven_flex(sensor, *p);
+      case Preset::explicit_:
+        break;
+    }
+    return illegal("preset explicit needs its thirteen integers: pass them to checked_geometry");
+  });
 }
 
 Result<Geometry> checked_geometry(const Geometry& geometry) {
-  if (auto r = check_axis(geometry.x, "x"); !r) return r.error();
-  if (auto r = check_axis(geometry.y, "y"); !r) return r.error();
-  if (geometry.capacity < 1 || geometry.capacity > kMaxCapacity) {
-    return out_of_range("capacity", geometry.capacity, "1 to 65535");
-  }
-  return geometry;
+  return as_result([&]() -> Result<Geometry> {
+    if (auto r = check_axis(geometry.x, "x"); !r) return r.error();
+    if (auto r = check_axis(geometry.y, "y"); !r) return r.error();
+    if (geometry.capacity < 1 || geometry.capacity > kMaxCapacity) {
+      return out_of_range("capacity", geometry.capacity, "1 to 65535");
+    }
+    return geometry;
+  });
 }
 
 std::string_view preset_name(Preset preset) {
@@ -195,12 +200,14 @@ std::string_view preset_name(Preset preset) {
 }
 
 Result<Preset> preset_from_name(std::string_view name) {
-  std::string names;
-  for (const auto& [value, known] : kPresetNames) {
-    if (known == name) return value;
-    names += (names.empty() ? "" : ", ") + std::string(known);
-  }
-  return illegal(text("preset '", name, "' is unknown; use one of ", names));
+  return as_result([&]() -> Result<Preset> {
+    std::string names;
+    for (const auto& [value, known] : kPresetNames) {
+      if (known == name) return value;
+      names += (names.empty() ? "" : ", ") + std::string(known);
+    }
+    return illegal(text("preset '", name, "' is unknown; use one of ", names));
+  });
 }
 
 std::string to_string(const Geometry& g) {

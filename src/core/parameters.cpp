@@ -140,18 +140,22 @@ bool query_changes_state(const Parameters& parameters) {
 
 Result<Parameters> parse_parameters(const std::string& representation,
                                     const std::map<std::string, std::string>& words) {
-  const auto parameters =
-      read_alternative<Parameters>("representation", representations(), {representation, words});
-  return parameters ? checked_parameters(*parameters) : parameters;
+  return as_result([&]() -> Result<Parameters> {
+    const auto parameters =
+        read_alternative<Parameters>("representation", representations(), {representation, words});
+    return parameters ? checked_parameters(*parameters) : parameters;
+  });
 }
 
 Result<Parameters> checked_parameters(Parameters parameters) {
-  const auto raise = [](auto& p) {
-    if constexpr (requires { p.kernel; }) p.kernel = odd_kernel(p.kernel);
-  };
-  auto checked = checked_alternative(parameters);
-  if (checked) std::visit(raise, *checked);
-  return checked;
+  return as_result([&]() -> Result<Parameters> {
+    const auto raise = [](auto& p) {
+      if constexpr (requires { p.kernel; }) p.kernel = odd_kernel(p.kernel);
+    };
+    auto checked = checked_alternative(parameters);
+    if (checked) std::visit(raise, *checked);
+    return checked;
+  });
 }
 
 }  // namespace scarf

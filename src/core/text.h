@@ -10,6 +10,7 @@ namespace scarf {
 template <class... Pieces>
 std::string text(const Pieces&... pieces) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // without memory: an exception, not a text that ends early
   out.imbue(std::locale::classic());
   (out << ... << pieces);
   return out.str();

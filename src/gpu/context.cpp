@@ -5,13 +5,15 @@
 namespace scarf {
 
 Result<std::vector<DeviceInfo>> list_devices() {
-  return vulkan::list();
+  return as_result([] { return vulkan::list(); });
 }
 
 Result<std::shared_ptr<GpuContext>> GpuContext::create(const DeviceOptions& options) {
-  auto device = vulkan::Device::create(options);
-  if (!device) return device.error();
-  return std::make_shared<GpuContext>(std::move(*device));
+  return as_result([&]() -> Result<std::shared_ptr<GpuContext>> {
+    auto device = vulkan::Device::create(options);
+    if (!device) return device.error();
+    return std::make_shared<GpuContext>(std::move(*device));
+  });
 }
 
 GpuContext::GpuContext(std::unique_ptr<vulkan::Device> device) : device_(std::move(device)) {}

@@ -204,7 +204,7 @@ Result<void> EventLog::prepare(uint32_t count) {
   capacity = std::min(capacity, most_events());
   if (needed > capacity) return full(needed);
   if (capacity == memory_->capacity) return {};
-  const auto grown = grow(static_cast<uint32_t>(capacity));
+  const auto grown = as_result([&] { return grow(static_cast<uint32_t>(capacity)); });
   return fits() ? Result<void>() : grown;
 }
 

@@ -70,6 +70,7 @@ class FilteredPipeline final : public ImagePipeline {
   Result<std::unique_ptr<EventBinding>> bind_events(const vulkan::Buffer& events) override;
   void record_reset(vulkan::Commands& commands) override;
   Result<void> prepare_push(uint32_t count) override { return inner_->prepare_push(count); }
+  void recording_lost() override { inner_->recording_lost(); }
   void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
                    const StreamFacts& facts) override;
 

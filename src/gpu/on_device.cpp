@@ -2,6 +2,11 @@
 
 namespace scarf {
 
+Result<void> check_context(const std::shared_ptr<GpuContext>& context) {
+  if (context == nullptr) return no_context();
+  return context->vulkan().check_process();
+}
+
 Result<Feed> Feed::create(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pipeline,
                           ImagePipeline* images, bool asks_for_newest, const GpuOptions& options,
                           std::span<const FilterParameters> filters) {

@@ -24,6 +24,14 @@ struct Feed {
                              std::span<const FilterParameters> filters);
 };
 
+/// What functions say that are given a null context.
+inline Error no_context() {
+  return {ErrorCode::illegal_parameter, "the context is null; make one with GpuContext::create"};
+}
+/// Errors: illegal_parameter for a null context; device in a process that was forked from that of the
+/// context.
+Result<void> check_context(const std::shared_ptr<GpuContext>& context);
+
 /// How a representation's u8_image() is recorded. May outlive the representation, not its stream.
 struct U8Picture {
   std::function<Result<Answer<Image<uint8_t>>>(Query& query, const StreamFacts& facts,

@@ -51,6 +51,10 @@ class Pipeline {
   virtual void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
                            const StreamFacts& facts) = 0;
 
+  /// What was recorded since the last submission, a push or a part of one, will never get to the device: what
+  /// the pipeline concluded from it does not hold. The default: it concludes nothing.
+  virtual void recording_lost() {}
+
   /// Device memory of the state.
   virtual uint64_t memory_bytes() const = 0;
 };

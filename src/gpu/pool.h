@@ -26,11 +26,18 @@ class Pool {
       if (!done) return done.error();
       if (*done) return take_at(i);
     }
-    if (idle_.size() < kIdleLimit) return make();
+    if (idle_.size() < kIdleLimit) {
+      if (idle_.capacity() <= made_) idle_.reserve(2 * made_ + 1);  // for give_back()
+      auto made = make();
+      if (made) ++made_;
+      return made;
+    }
     if (auto r = compute_of(*idle_.front()).wait(); !r) return r.error();
     return take_at(0);
   }
-  void give_back(std::unique_ptr<T> object) { idle_.push_back(std::move(object)); }
+  /// Of an object that take() made. Allocates nothing: it has its place already, so that destructors may call
+  /// this.
+  void give_back(std::unique_ptr<T> object) noexcept { idle_.push_back(std::move(object)); }
   const std::vector<std::unique_ptr<T>>& idle() const { return idle_; }
 
  private:
@@ -41,6 +48,7 @@ class Pool {
   }
 
   std::vector<std::unique_ptr<T>> idle_;
+  size_t made_ = 0;  // idle or lent out
 };
 
 }  // namespace scarf

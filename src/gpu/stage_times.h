@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,17 @@ namespace scarf {
 class StageTimes {
  public:
   /// Of commands whose last submission is done. A failure here loses a measurement, not a result.
-  void collect(vulkan::Commands& commands) {
-    const auto spans = commands.take_times();
-    if (!spans) return;
-    for (const vulkan::StageSpan& span : *spans) {
-      StageTime& time = times_[std::string(span.stage)];
-      time.stage = span.stage;
-      time.dispatches += 1;
-      time.nanoseconds += span.nanoseconds;
+  void collect(vulkan::Commands& commands) noexcept {
+    try {
+      const auto spans = commands.take_times();
+      if (!spans) return;
+      for (const vulkan::StageSpan& span : *spans) {
+        const std::string stage(span.stage);
+        StageTime& time = times_.try_emplace(stage, StageTime{stage}).first->second;
+        time.dispatches += 1;
+        time.nanoseconds += span.nanoseconds;
+      }
+    } catch (const std::bad_alloc&) {
     }
   }
   /// Of those that are idle and done; others are counted when they are used again.

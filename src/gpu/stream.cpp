@@ -24,6 +24,14 @@ StreamFacts with(StreamFacts facts, const CheckedBatch& batch) {
   return facts;
 }
 
+Error because(const char* sentence, const Error& e) noexcept {
+  try {
+    return {e.code, text(sentence, e.message)};
+  } catch (const std::bad_alloc&) {
+    return copy_of(e);
+  }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Query>> Query::create(vulkan::Device& device) {
@@ -72,6 +80,7 @@ Stream::Stream(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pi
       pipeline_(std::move(pipeline)) {}
 
 Stream::~Stream() {
+  if (device_.forked()) return;
   // Nothing may be destroyed while the device uses it. A lost device uses nothing; after any other failure
   // to wait, waiting for everything is tried.
   const bool idle =
@@ -89,113 +98,132 @@ Result<void> Stream::start() {
 }
 
 Result<PushReport> Stream::push(std::span<const Event> events) {
-  std::lock_guard lock(mutex_);
-  if (auto r = ready_to_push(); !r) return r.error();
-  if (words_ != nullptr) {
-    if (auto r = words_->settle_all(); !r) return r.error();
-  }
-  auto batch = check_batch(events, sensor(), facts_.first);
-  if (!batch) return batch.error();
-  const StreamFacts before = facts_;
-  facts_ = with(before, *batch);
-  size_t accepted = 0;
-  while (accepted < events.size()) {
+  return exclusively([&]() -> Result<PushReport> {
+    if (auto r = ready_to_push(); !r) return r.error();
+    if (words_ != nullptr) {
+      if (auto r = words_->settle_all(); !r) return r.error();
+    }
+    auto batch = check_batch(events, sensor(), facts_.first);
+    if (!batch) return batch.error();
+    const StreamFacts before = facts_;
+    facts_ = with(before, *batch);
+    size_t accepted = 0;
+    const auto stored = as_result([&] { return store(events, accepted); });
+    if (stored) return PushReport{accepted, batch->outside};
+    if (accepted == 0) {  // nothing has happened
+      facts_ = before;
+      return stored.error();
+    }
+    if (stored.error().code != ErrorCode::would_block) return fail(stored.error());
+    // A batch that was taken in part counts as that part.
+    batch = check_batch(events.first(accepted), sensor(), before.first);
+    facts_ = with(before, *batch);
+    return PushReport{accepted, batch->outside};
+  });
+}
+
+// Appends checked events, and submits where a slot is full. `stored` tells how many, also after an error.
+Result<void> Stream::store(std::span<const Event> events, size_t& stored) {
+  while (stored < events.size()) {
     const auto slot = open_slot(1);
-    if (!slot && slot.error().code == ErrorCode::would_block) {
-      // A batch that was taken in part counts as that part.
-      batch = check_batch(events.first(accepted), sensor(), before.first);
-      facts_ = with(before, *batch);
-      if (accepted == 0) return slot.error();
-      break;
-    }
-    if (!slot) return fail(slot.error());
+    if (!slot) return slot.error();
     StagingSlot& s = **slot;
-    const size_t n = std::min<size_t>(events.size() - accepted, room(s));
-    append(s, events.subspan(accepted, n));
-    accepted += n;
+    const size_t n = std::min<size_t>(events.size() - stored, room(s));
+    append(s, events.subspan(stored, n));
+    stored += n;
     if (room(s) == 0) {
-      if (auto r = submit_open(); !r) return fail(r.error());
+      if (auto r = submit_open(); !r) return r;
     }
   }
-  return PushReport{accepted, batch->outside};
-}
-
-Result<std::span<Event>> Stream::acquire(size_t n) {
-  std::lock_guard lock(mutex_);
-  if (auto r = ready_to_push(); !r) return r.error();
-  if (n > max_acquire()) {
-    return Error{ErrorCode::illegal_parameter,
-                 text("acquire of ", n, " events, legal is 0 to ", max_acquire())};
-  }
-  if (words_ != nullptr) {
-    if (auto r = words_->settle_all(); !r) return r.error();
-  }
-  const auto slot = open_slot(std::max<size_t>(n, 1));
-  if (!slot) return slot.error().code == ErrorCode::would_block ? slot.error() : fail(slot.error());
-  acquired_ = n;
-  return std::span(lend(**slot, n), n);
-}
-
-Result<PushReport> Stream::commit(size_t count) {
-  std::lock_guard lock(mutex_);
-  if (auto r = usable(); !r) return r.error();
-  if (!acquired_ || count > *acquired_) {
-    return Error{ErrorCode::illegal_parameter,
-                 text("commit of ", count, " events, but acquired were ", acquired_.value_or(0))};
-  }
-  acquired_.reset();
-  StagingSlot& s = staging_[open_];
-  const std::span<const Event> events(lend(s, 0), count);
-  const auto batch = check_batch(events, sensor(), facts_.first);
-  if (!batch) return batch.error();
-  facts_ = with(facts_, *batch);
-  append(s, events);
-  if (room(s) == 0) {
-    if (auto r = submit_open(); !r) return fail(r.error());
-  }
-  return PushReport{count, batch->outside};
-}
-
-Result<void> Stream::flush() {
-  std::lock_guard lock(mutex_);
-  if (auto r = usable(); !r) return r;
-  return submit_gathered();
-}
-
-Result<void> Stream::finish() {
-  std::unique_lock lock(mutex_);
-  if (auto r = usable(); !r) return r;
-  if (auto r = submit_gathered(); !r) return r;
-  const uint64_t last = last_submission_;
-  lock.unlock();
-  return device_.compute().wait(last);
-}
-
-Result<void> Stream::reset() {
-  std::lock_guard lock(mutex_);
-  if (words_ != nullptr) {
-    if (auto r = words_->discard_all(); !r) return r;
-  }
-  auto commands = take_commands();
-  if (!commands) return commands.error();
-  if (auto r = (*commands)->begin(); !r) return r;
-  pipeline_->record_reset((*commands)->compute);
-  if (auto r = submit(**commands); !r) {
-    failure_ =
-        Error{r.error().code, text("the stream is not empty since a reset failed: ", r.error().message)};
-    return r;
-  }
-  push_pool_.give_back(std::move(*commands));
-  // Events gathered so far belong to the old stream.
-  StagingSlot& open = staging_[open_];
-  open.begin = open.fill;
-  if (packed()) open.packer.end_part();
-  facts_ = {};
-  failure_.reset();
   return {};
 }
 
+Result<std::span<Event>> Stream::acquire(size_t n) {
+  return exclusively([&]() -> Result<std::span<Event>> {
+    if (auto r = ready_to_push(); !r) return r.error();
+    if (n > max_acquire()) {
+      return Error{ErrorCode::illegal_parameter,
+                   text("acquire of ", n, " events, legal is 0 to ", max_acquire())};
+    }
+    if (words_ != nullptr) {
+      if (auto r = words_->settle_all(); !r) return r.error();
+    }
+    const auto slot = open_slot(std::max<size_t>(n, 1));
+    if (!slot) return slot.error();
+    const std::span<Event> events(lend(**slot, n), n);
+    acquired_ = n;
+    return events;
+  });
+}
+
+Result<PushReport> Stream::commit(size_t count) {
+  return exclusively([&]() -> Result<PushReport> {
+    if (auto r = usable(); !r) return r.error();
+    if (!acquired_ || count > *acquired_) {
+      return Error{ErrorCode::illegal_parameter,
+                   text("commit of ", count, " events, but acquired were ", acquired_.value_or(0))};
+    }
+    acquired_.reset();
+    StagingSlot& s = staging_[open_];
+    const std::span<const Event> events(lend(s, 0), count);
+    const auto batch = check_batch(events, sensor(), facts_.first);
+    if (!batch) return batch.error();
+    facts_ = with(facts_, *batch);
+    append(s, events);
+    if (room(s) == 0) {
+      if (auto r = as_result([&] { return submit_open(); }); !r) return fail(r.error());
+    }
+    return PushReport{count, batch->outside};
+  });
+}
+
+Result<void> Stream::flush() {
+  return exclusively([&]() -> Result<void> {
+    if (auto r = usable(); !r) return r;
+    return submit_gathered();
+  });
+}
+
+Result<void> Stream::finish() {
+  uint64_t last = 0;
+  auto submitted = exclusively([&]() -> Result<void> {
+    if (auto r = usable(); !r) return r;
+    if (auto r = submit_gathered(); !r) return r;
+    last = last_submission_;
+    return {};
+  });
+  return submitted ? device_.compute().wait(last) : submitted;
+}
+
+Result<void> Stream::reset() {
+  return exclusively([&]() -> Result<void> {
+    if (words_ != nullptr) {
+      if (auto r = words_->discard_all(); !r) return r;
+    }
+    auto commands = take_commands();
+    if (!commands) return commands.error();
+    if (auto r = (*commands)->begin(); !r) return r;
+    auto submitted = as_result([&] {
+      pipeline_->record_reset((*commands)->compute);
+      return submit(**commands);
+    });
+    if (!submitted) {
+      failure_ = because("the stream is not empty since a reset failed: ", submitted.error());
+      return submitted;
+    }
+    push_pool_.give_back(std::move(*commands));
+    // Events gathered so far belong to the old stream.
+    StagingSlot& open = staging_[open_];
+    open.begin = open.fill;
+    if (packed()) open.packer.end_part();
+    facts_ = {};
+    failure_.reset();
+    return {};
+  });
+}
+
 std::vector<StageTime> Stream::stage_times() {
+  if (device_.forked()) return {};
   std::lock_guard lock(mutex_);
   stage_times_.collect_idle(push_pool_);
   for (const auto& pool : query_pools_) stage_times_.collect_idle(pool);
@@ -203,6 +231,7 @@ std::vector<StageTime> Stream::stage_times() {
 }
 
 uint64_t Stream::memory_bytes() {
+  if (device_.forked()) return 0;
   std::lock_guard lock(mutex_);
   uint64_t bytes = pipeline_->memory_bytes() + query_bytes_ + unpacker_.memory_bytes();
   for (const StagingSlot& s : staging_) bytes += s.memory.memory_bytes();
@@ -211,13 +240,13 @@ uint64_t Stream::memory_bytes() {
 }
 
 // After a failed push, part of a batch may be stored: the stream then refuses everything until reset().
-Error Stream::fail(Error e) {
-  failure_ = Error{e.code, text("the stream is incomplete since a push failed: ", e.message)};
-  return e;
+Error Stream::fail(const Error& e) noexcept {
+  failure_ = because("the stream is incomplete since a push failed: ", e);
+  return copy_of(e);
 }
 
-Result<void> Stream::usable() const {
-  return failure_ ? Result<void>(*failure_) : Result<void>();
+Result<void> Stream::usable() const noexcept {
+  return failure_ ? Result<void>(copy_of(*failure_)) : Result<void>();
 }
 
 Result<void> Stream::ready_to_push() const {
@@ -319,16 +348,18 @@ Result<void> Stream::submit_open() {
   if (!*any) return {};
   auto commands = take_commands();
   if (!commands) return commands.error();
-  const auto submitted = [&]() -> Result<void> {
+  auto submitted = as_result([&]() -> Result<void> {
     if (auto r = begin_with_upload(**commands, [this](Commands& c) { record_copies(c); }); !r) return r;
     record_open((*commands)->compute);
     return submit(**commands);
-  }();
+  });
   // Also after a failure: the transfer may be in flight.
   push_pool_.give_back(std::move(*commands));
-  if (!submitted) return submitted;
-  open_is_submitted();
-  return {};
+  if (submitted)
+    open_is_submitted();
+  else
+    pipeline_->recording_lost();
+  return submitted;
 }
 
 Result<bool> Stream::prepare_open() {
@@ -369,7 +400,7 @@ void Stream::open_is_submitted() {
 }
 
 Result<void> Stream::begin_with_upload(PushCommands& commands, const std::function<void(Commands&)>& copy) {
-  const auto begun = commands.begin(upload_, copy);
+  auto begun = as_result([&] { return commands.begin(upload_, copy); });
   if (commands.transferred != 0) last_transfer_ = commands.transferred;
   return begun;
 }
@@ -409,63 +440,73 @@ Result<std::unique_ptr<Query>> Stream::take_query(QueryKind kind) {
 }
 
 template <class T>
-Pending<T> Stream::query(QueryKind kind, const Record<T>& record, bool changes_state) {
+Pending<T> Stream::ask(QueryKind kind, const Record<T>& record, bool changes_state) {
   // The query in flight; it goes back to its pool when the Pending result is gone.
   struct Lease {
     std::shared_ptr<Stream> stream;
     QueryKind kind;
     std::unique_ptr<Query> query;
-    size_t parts;  // of the answer; an earlier query may have left more results
+    size_t parts = 0;  // of the answer; an earlier query may have left more results
     std::function<Result<T>(HostParts)> read;
+
+    Lease(std::shared_ptr<Stream> of, QueryKind of_kind) : stream(std::move(of)), kind(of_kind) {}
     ~Lease() {
+      if (!query || stream->device_.forked()) return;
       std::lock_guard lock(stream->mutex_);
       stream->query_pools_[static_cast<size_t>(kind)].give_back(std::move(query));
     }
+    Result<T> wait() const {
+      if (auto r = stream->device_.check_process(); !r) return r.error();
+      if (auto r = query->commands.wait(); !r) return r.error();
+      std::vector<const void*> results;
+      for (size_t i = 0; i < parts; ++i) results.push_back(query->results[i].mapped());
+      return read(results);
+    }
   };
 
-  std::lock_guard lock(mutex_);
-  if (auto r = usable(); !r) return r.error();
-  if (auto r = submit_gathered(); !r) return r.error();
-  auto taken = take_query(kind);
-  if (!taken) return taken.error();
-  Query& q = **taken;
-  const uint64_t bytes_before = q.memory_bytes();
-  auto recorded = [&]() -> Result<Answer<T>> {
-    if (auto r = q.commands.begin(); !r) return r.error();
-    auto answer = record(q, facts_);
-    if (!answer) return answer.error();
-    if (auto r = q.copy_back(device_, answer->parts); !r) return r.error();
-    if (auto r = submit(q); !r) return changes_state ? fail(r.error()) : r.error();
-    return answer;
-  }();
-  if (!recorded) {
-    query_bytes_ -= bytes_before;  // the query is dropped
-    return recorded.error();
-  }
-  query_bytes_ += q.memory_bytes() - bytes_before;
-  std::shared_ptr<Lease> lease(new Lease{shared_from_this(), kind, std::move(*taken), recorded->parts.size(),
-                                         std::move(recorded->read)});
-  return Pending<T>(
-      [lease] {
-        const auto done = lease->query->commands.done();
-        return !done || *done;
-      },
-      [lease]() -> Result<T> {
-        if (auto r = lease->query->commands.wait(); !r) return r.error();
-        std::vector<const void*> parts;
-        for (size_t i = 0; i < lease->parts; ++i) parts.push_back(lease->query->results[i].mapped());
-        return lease->read(parts);
+  return as_result([&]() -> Pending<T> {
+    const auto lease = std::make_shared<Lease>(shared_from_this(), kind);  // outlives the lock, which its
+    return exclusively([&]() -> Pending<T> {                               // destructor takes
+      if (auto r = usable(); !r) return r.error();
+      if (auto r = submit_gathered(); !r) return r.error();
+      auto taken = take_query(kind);
+      if (!taken) return taken.error();
+      lease->query = std::move(*taken);
+      Query& q = *lease->query;
+      const uint64_t bytes_before = q.memory_bytes();
+      // Made first: behind the submission nothing may fail.
+      Pending<T> pending(
+          [lease] {
+            if (lease->stream->device_.forked()) return true;
+            const auto done = lease->query->commands.done();
+            return !done || *done;
+          },
+          [lease] { return lease->wait(); });
+      const auto submitted = as_result([&]() -> Result<void> {
+        if (auto r = q.commands.begin(); !r) return r;
+        auto answer = record(q, facts_);
+        if (!answer) return answer.error();
+        if (auto r = q.copy_back(device_, answer->parts); !r) return r;
+        lease->parts = answer->parts.size();
+        lease->read = std::move(answer->read);
+        auto r = as_result([&] { return submit(q); });
+        return !r && changes_state ? Result<void>(fail(r.error())) : r;
       });
+      query_bytes_ += q.memory_bytes() - bytes_before;
+      if (!submitted) return submitted.error();
+      return pending;
+    });
+  });
 }
 
-template Pending<Image<uint8_t>> Stream::query(QueryKind, const Record<Image<uint8_t>>&, bool);
-template Pending<Image<float>> Stream::query(QueryKind, const Record<Image<float>>&, bool);
-template Pending<Image<int32_t>> Stream::query(QueryKind, const Record<Image<int32_t>>&, bool);
-template Pending<Image<int64_t>> Stream::query(QueryKind, const Record<Image<int64_t>>&, bool);
-template Pending<std::vector<Event>> Stream::query(QueryKind, const Record<std::vector<Event>>&, bool);
-template Pending<std::vector<uint8_t>> Stream::query(QueryKind, const Record<std::vector<uint8_t>>&, bool);
-template Pending<Snapshot> Stream::query(QueryKind, const Record<Snapshot>&, bool);
-template Pending<std::vector<FilterReport>> Stream::query(QueryKind, const Record<std::vector<FilterReport>>&,
-                                                          bool);
+template Pending<Image<uint8_t>> Stream::ask(QueryKind, const Record<Image<uint8_t>>&, bool);
+template Pending<Image<float>> Stream::ask(QueryKind, const Record<Image<float>>&, bool);
+template Pending<Image<int32_t>> Stream::ask(QueryKind, const Record<Image<int32_t>>&, bool);
+template Pending<Image<int64_t>> Stream::ask(QueryKind, const Record<Image<int64_t>>&, bool);
+template Pending<std::vector<Event>> Stream::ask(QueryKind, const Record<std::vector<Event>>&, bool);
+template Pending<std::vector<uint8_t>> Stream::ask(QueryKind, const Record<std::vector<uint8_t>>&, bool);
+template Pending<Snapshot> Stream::ask(QueryKind, const Record<Snapshot>&, bool);
+template Pending<std::vector<FilterReport>> Stream::ask(QueryKind, const Record<std::vector<FilterReport>>&,
+                                                        bool);
 
 }  // namespace scarf

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/event_packer.h"
@@ -76,12 +77,25 @@ class Stream : public std::enable_shared_from_this<Stream> {
   std::vector<StageTime> stage_times();
   uint64_t memory_bytes();
 
-  /// Submits what was gathered, then what `record` records, and hands over what the answer reads.
-  /// `changes_state`: the recorded work does; should it not get to the device, the stream is broken.
-  template <class T>
-  using Record = std::function<Result<Answer<T>>(Query& query, const StreamFacts& facts)>;
-  template <class T>
-  Pending<T> query(QueryKind kind, const Record<T>& record, bool changes_state = false);
+  /// Submits what was gathered, then what `record(Query&, const StreamFacts&)` records, and hands over what
+  /// the Result<Answer<T>> reads that it returns. `changes_state`: the recorded work does; should it not get
+  /// to the device, the stream is broken.
+  template <class T, class Record>
+  Pending<T> query(QueryKind kind, const Record& record, bool changes_state = false) {
+    return ask<T>(kind, std::cref(record), changes_state);
+  }
+
+  /// Runs a call of the public interface: under the lock, in the process that made the device, and with lack
+  /// of memory as an error.
+  template <class Call>
+  std::invoke_result_t<Call&> exclusively(Call call) {
+    using Answer = std::invoke_result_t<Call&>;
+    return as_result([&]() -> Answer {
+      if (auto r = device_.check_process(); !r) return r.error();
+      std::lock_guard lock(mutex_);
+      return call();
+    });
+  }
 
  private:
   friend class WordFeed;     // the other way into a stream: words instead of events
@@ -104,13 +118,20 @@ class Stream : public std::enable_shared_from_this<Stream> {
   Stream(std::shared_ptr<GpuContext> context, std::unique_ptr<Pipeline> pipeline, const GpuOptions& options);
   Result<void> start();
 
-  Error fail(Error e);
-  Result<void> usable() const;
+  // std::function of a reference allocates nothing.
+  template <class T>
+  using Record = std::function<Result<Answer<T>>(Query& query, const StreamFacts& facts)>;
+  template <class T>
+  Pending<T> ask(QueryKind kind, const Record<T>& record, bool changes_state);
+
+  Error fail(const Error& e) noexcept;
+  Result<void> usable() const noexcept;
   Result<void> ready_to_push() const;
 
   Result<StagingSlot> make_slot();
   bool packed() const { return upload_ != Upload::automatic; }
   size_t room(const StagingSlot& s) const { return packed() ? s.packer.room() : max_acquire() - s.fill; }
+  Result<void> store(std::span<const Event> events, size_t& stored);
   void append(StagingSlot& s, std::span<const Event> events);
   Event* lend(StagingSlot& s, size_t n);
   Result<StagingSlot*> open_slot(size_t n);

@@ -21,13 +21,15 @@ struct StreamGroup::Lease {
   std::vector<Picture> pictures;
 
   ~Lease() {
+    if (!query || group->device_.forked()) return;
     std::lock_guard lock(group->mutex_);
-    if (query) group->query_pool_.give_back(std::move(query));
+    group->query_pool_.give_back(std::move(query));
   }
 
-  Result<std::vector<Image<uint8_t>>> wait() const {
+  Result<Images> wait() const {
+    if (auto r = group->device_.check_process(); !r) return r.error();
     if (auto r = query->commands.wait(); !r) return r.error();
-    std::vector<Image<uint8_t>> images;
+    Images images;
     for (const Picture& picture : pictures) {
       std::vector<const void*> parts;
       for (size_t i = 0; i < picture.results; ++i)
@@ -44,25 +46,37 @@ StreamGroup::StreamGroup(std::shared_ptr<GpuContext> context)
     : context_(std::move(context)), device_(context_->vulkan()) {}
 
 StreamGroup::~StreamGroup() {
+  if (device_.forked()) return;
   // Nothing may be destroyed while the device uses it; see ~Stream.
   const bool idle =
       device_.compute().wait(last_submission_).ok() && device_.transfer().wait(last_transfer_).ok();
   if (!idle) device_.calls().DeviceWaitIdle(device_.handle());
 }
 
+template <class Call>
+std::invoke_result_t<Call&> StreamGroup::exclusively(Call call) {
+  using Answer = std::invoke_result_t<Call&>;
+  return as_result([&]() -> Answer {
+    if (auto r = device_.check_process(); !r) return r.error();
+    std::lock_guard lock(mutex_);
+    return call();
+  });
+}
+
 Result<void> StreamGroup::add(const StreamFed& member) {
-  const std::shared_ptr<Stream> stream = member.stream();
-  std::lock_guard lock(mutex_);
-  if (&stream->device() != &device_) {
-    return Error{ErrorCode::illegal_parameter,
-                 "the representation was made with another context; make it with that of the group"};
-  }
-  for (const Member& other : members_) {
-    if (other.stream.lock() == stream)
-      return Error{ErrorCode::illegal_parameter, "the representation is a member of this group already"};
-  }
-  members_.push_back({stream, member.u8_picture()});
-  return {};
+  return exclusively([&]() -> Result<void> {
+    const std::shared_ptr<Stream> stream = member.stream();
+    if (&stream->device() != &device_) {
+      return Error{ErrorCode::illegal_parameter,
+                   "the representation was made with another context; make it with that of the group"};
+    }
+    for (const Member& other : members_) {
+      if (other.stream.lock() == stream)
+        return Error{ErrorCode::illegal_parameter, "the representation is a member of this group already"};
+    }
+    members_.push_back({stream, member.u8_picture()});
+    return {};
+  });
 }
 
 // Those destroyed since the last time are forgotten.
@@ -81,20 +95,21 @@ std::vector<StreamGroup::Locked> StreamGroup::lock_members() {
 }
 
 Result<void> StreamGroup::flush() {
-  std::lock_guard lock(mutex_);
-  const auto members = lock_members();
-  return submit_gathered(members);
+  return exclusively([&] {
+    const auto members = lock_members();
+    return submit_gathered(members);
+  });
 }
 
 Result<void> StreamGroup::finish() {
   uint64_t last = 0;
-  {
-    std::lock_guard lock(mutex_);
+  auto submitted = exclusively([&]() -> Result<void> {
     const auto members = lock_members();
     if (auto r = submit_gathered(members); !r) return r;
     for (const Locked& member : members) last = std::max(last, member.stream->last_submission_);
-  }
-  return device_.compute().wait(last);
+    return {};
+  });
+  return submitted ? device_.compute().wait(last) : submitted;
 }
 
 // Each stream's part reads and writes memory of that stream only, so parts may run side by side.
@@ -102,8 +117,8 @@ Result<void> StreamGroup::submit_gathered(std::span<const Locked> members) {
   Result<void> first_error;
   std::vector<Stream*> ready;
   for (const Locked& member : members) {
-    const auto any = member.stream->prepare_gathered();
-    if (!any && first_error) first_error = any.error();
+    const auto any = as_result([&] { return member.stream->prepare_gathered(); });
+    if (!any && first_error) first_error = copy_of(any.error());
     if (any && *any) ready.push_back(member.stream.get());
   }
   if (ready.empty()) return first_error;
@@ -112,7 +127,7 @@ Result<void> StreamGroup::submit_gathered(std::span<const Locked> members) {
   if (!commands) return commands.error();
   PushCommands& push = **commands;
   stage_times_.collect(push.compute);
-  const auto submitted = [&]() -> Result<void> {
+  auto submitted = as_result([&]() -> Result<void> {
     const auto copy_all = [&](Commands& c) {
       for (const Stream* stream : ready) stream->record_copies(c);
     };
@@ -122,7 +137,7 @@ Result<void> StreamGroup::submit_gathered(std::span<const Locked> members) {
       stream->record_open(push.compute);
     }
     return push.submit(device_);
-  }();
+  });
   if (push.transferred != 0) {
     last_transfer_ = push.transferred;
     for (Stream* stream : ready) stream->last_transfer_ = push.transferred;
@@ -130,7 +145,10 @@ Result<void> StreamGroup::submit_gathered(std::span<const Locked> members) {
   const uint64_t place = push.compute.value();
   // Also after a failure: the transfer may be in flight.
   push_pool_.give_back(std::move(*commands));
-  if (!submitted) return submitted;
+  if (!submitted) {
+    for (Stream* stream : ready) stream->pipeline_->recording_lost();
+    return submitted;
+  }
   last_submission_ = place;
   for (Stream* stream : ready) {
     stream->last_submission_ = place;
@@ -165,35 +183,39 @@ Result<void> StreamGroup::submit_pictures(std::span<const Locked> members, std::
 }
 
 Pending<std::vector<Image<uint8_t>>> StreamGroup::u8_images(std::optional<int64_t> now) {
-  const auto lease = std::make_shared<Lease>();  // outlives the lock, which its destructor takes
-  lease->group = shared_from_this();
-  std::lock_guard lock(mutex_);
-  const auto members = lock_members();
-  if (members.empty()) return std::vector<Image<uint8_t>>();
-  if (auto r = submit_gathered(members); !r) return r.error();
-  auto query = take_query();
-  if (!query) return query.error();
-  lease->query = std::move(*query);
-  const uint64_t bytes_before = lease->query->memory_bytes();
-  if (auto r = submit_pictures(members, now, *lease); !r) {
-    // What was recorded for a member, and changes its state, does not get to the device.
-    for (size_t i = 0; i < members.size() && i <= lease->pictures.size(); ++i) {
-      if (members[i].picture->changes_state) members[i].stream->fail(r.error());
-    }
-    query_bytes_ -= bytes_before;
-    lease->query.reset();
-    return r.error();
-  }
-  query_bytes_ += lease->query->memory_bytes() - bytes_before;
-  return Pending<std::vector<Image<uint8_t>>>(
-      [lease] {
-        const auto done = lease->query->commands.done();
-        return !done || *done;
-      },
-      [lease] { return lease->wait(); });
+  return as_result([&]() -> Pending<Images> {
+    const auto lease = std::make_shared<Lease>();  // outlives the lock, which its destructor takes
+    lease->group = shared_from_this();
+    return exclusively([&]() -> Pending<Images> {
+      const auto members = lock_members();
+      if (members.empty()) return Images();
+      if (auto r = submit_gathered(members); !r) return r.error();
+      auto query = take_query();
+      if (!query) return query.error();
+      lease->query = std::move(*query);
+      // Made first: behind the submission nothing may fail.
+      Pending<Images> pending(
+          [lease] {
+            if (lease->group->device_.forked()) return true;
+            const auto done = lease->query->commands.done();
+            return !done || *done;
+          },
+          [lease] { return lease->wait(); });
+      const uint64_t bytes_before = lease->query->memory_bytes();
+      const auto submitted = as_result([&] { return submit_pictures(members, now, *lease); });
+      query_bytes_ += lease->query->memory_bytes() - bytes_before;
+      if (submitted) return pending;
+      // What was recorded for a member, and changes its state, does not get to the device.
+      for (size_t i = 0; i < members.size() && i <= lease->pictures.size(); ++i) {
+        if (members[i].picture->changes_state) members[i].stream->fail(submitted.error());
+      }
+      return submitted.error();
+    });
+  });
 }
 
 std::vector<StageTime> StreamGroup::stage_times() {
+  if (device_.forked()) return {};
   std::lock_guard lock(mutex_);
   stage_times_.collect_idle(push_pool_);
   stage_times_.collect_idle(query_pool_);
@@ -201,6 +223,7 @@ std::vector<StageTime> StreamGroup::stage_times() {
 }
 
 uint64_t StreamGroup::memory_bytes() {
+  if (device_.forked()) return 0;
   std::lock_guard lock(mutex_);
   return query_bytes_;
 }
@@ -210,24 +233,32 @@ namespace {
 class DeviceGroup final : public GpuGroup {
  public:
   explicit DeviceGroup(std::shared_ptr<GpuContext> context)
-      : group_(std::make_shared<StreamGroup>(std::move(context))) {}
+      : group_(context == nullptr ? nullptr : std::make_shared<StreamGroup>(std::move(context))) {}
 
   Result<void> add(GpuRepresentation& member) override {
-    const auto* const fed = dynamic_cast<const StreamFed*>(&member);
-    if (fed != nullptr) return group_->add(*fed);
-    return Error{ErrorCode::illegal_parameter,
-                 "this GpuRepresentation was not made by make_gpu_representation or make_gpu_scarf"};
+    return as_result([&]() -> Result<void> {
+      if (group_ == nullptr) return no_context();
+      const auto* const fed = dynamic_cast<const StreamFed*>(&member);
+      if (fed != nullptr) return group_->add(*fed);
+      return Error{ErrorCode::illegal_parameter,
+                   "this GpuRepresentation was not made by make_gpu_representation or make_gpu_scarf"};
+    });
   }
-  Result<void> flush() override { return group_->flush(); }
-  Result<void> finish() override { return group_->finish(); }
+  Result<void> flush() override { return group_ == nullptr ? as_result(none) : group_->flush(); }
+  Result<void> finish() override { return group_ == nullptr ? as_result(none) : group_->finish(); }
   Pending<std::vector<Image<uint8_t>>> u8_images(std::optional<int64_t> now) override {
-    return group_->u8_images(now);
+    if (group_ != nullptr) return group_->u8_images(now);
+    return as_result([]() -> Pending<std::vector<Image<uint8_t>>> { return no_context(); });
   }
-  std::vector<StageTime> stage_times() const override { return group_->stage_times(); }
-  uint64_t memory_bytes() const override { return group_->memory_bytes(); }
+  std::vector<StageTime> stage_times() const override {
+    return group_ == nullptr ? std::vector<StageTime>() : group_->stage_times();
+  }
+  uint64_t memory_bytes() const override { return group_ == nullptr ? 0 : group_->memory_bytes(); }
 
  private:
-  const std::shared_ptr<StreamGroup> group_;
+  static Result<void> none() { return no_context(); }
+
+  const std::shared_ptr<StreamGroup> group_;  // null: made without a context
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "gpu/on_device.h"
@@ -45,7 +46,11 @@ class StreamGroup : public std::enable_shared_from_this<StreamGroup> {
     std::unique_lock<std::mutex> lock;  // released before the stream
   };
   struct Lease;
+  using Images = std::vector<Image<uint8_t>>;
 
+  // As Stream::exclusively.
+  template <class Call>
+  std::invoke_result_t<Call&> exclusively(Call call);
   std::vector<Locked> lock_members();
   Result<void> submit_gathered(std::span<const Locked> members);
   Result<void> submit_pictures(std::span<const Locked> members, std::optional<int64_t> now, Lease& lease);

@@ -39,14 +39,15 @@ WordFeed::WordFeed(std::shared_ptr<Stream> stream, CameraWords words)
 Result<std::unique_ptr<GpuDecoder>> WordFeed::create(std::shared_ptr<Stream> stream, CameraWords words) {
   std::unique_ptr<WordFeed> feed(
       new WordFeed(stream, words));  // outlives the lock, which its destructor takes
-  std::lock_guard lock(stream->mutex_);
-  if (stream->words_ != nullptr) {
-    return Error{ErrorCode::illegal_parameter,
-                 "the representation has a decoder already; destroy that one first"};
-  }
-  if (auto r = feed->start(); !r) return r.error();
-  stream->words_ = feed.get();
-  return std::unique_ptr<GpuDecoder>(std::move(feed));
+  return stream->exclusively([&]() -> Result<std::unique_ptr<GpuDecoder>> {
+    if (stream->words_ != nullptr) {
+      return Error{ErrorCode::illegal_parameter,
+                   "the representation has a decoder already; destroy that one first"};
+    }
+    if (auto r = feed->start(); !r) return r.error();
+    stream->words_ = feed.get();
+    return std::unique_ptr<GpuDecoder>(std::move(feed));
+  });
 }
 
 Result<void> WordFeed::start() {
@@ -57,6 +58,9 @@ Result<void> WordFeed::start() {
   PipelineBuilder builder(stream_->device_);
   decoder_.build(builder, words_, stream_->sensor(), most_events_ + 2, most_events_);
   slots_ = std::vector<Slot>(stream_->options_.staging_slots);
+  // Once words are taken nothing may fail for these.
+  submitted_.reserve(slots_.size());
+  rest_.reserve(word_bytes_);
   for (Slot& slot : slots_) decoder_.make_piece(builder, slot.piece);
   if (!builder.result()) return builder.result();
   bytes_ = builder.bytes();
@@ -68,10 +72,11 @@ Result<void> WordFeed::start() {
 
 // Words that were pushed are not lost: if they cannot be settled, the stream says so.
 WordFeed::~WordFeed() {
+  if (stream_->device_.forked()) return;
   std::lock_guard lock(stream_->mutex_);
   if (stream_->words_ != this) return;
   if (stream_->usable() && holds_words()) {
-    if (auto r = settle_all(); !r) stream_->fail(r.error());
+    if (auto r = as_result([&] { return settle_all(); }); !r) stream_->fail(r.error());
   }
   stream_->words_ = nullptr;
   // Nothing may be destroyed while the device uses it.
@@ -83,23 +88,38 @@ WordFeed::~WordFeed() {
 }
 
 Result<size_t> WordFeed::push(std::span<const uint8_t> bytes) {
-  std::lock_guard lock(stream_->mutex_);
-  if (auto r = stream_->ready_to_push(); !r) return r.error();
-  if (auto r = stream_->submit_open(); !r) return stream_->fail(r.error());
-  size_t taken = begin(bytes);
+  return stream_->exclusively([&]() -> Result<size_t> {
+    if (auto r = stream_->ready_to_push(); !r) return r.error();
+    if (auto r = usable(); !r) return r.error();
+    if (auto r = stream_->submit_open(); !r) return r.error();
+    size_t taken = 0;
+    const auto pushed = as_result([&] { return take(bytes, taken); });
+    if (pushed) return taken;
+    const ErrorCode code = pushed.error().code;
+    if (code == ErrorCode::would_block && taken > 0) return taken;
+    if (code == ErrorCode::would_block || code == ErrorCode::refused_batch) return pushed.error();
+    lost_ = true;
+    return stream_->fail(pushed.error());
+  });
+}
+
+Result<void> WordFeed::usable() const {
+  if (!lost_) return {};
+  return Error{ErrorCode::illegal_parameter,
+               "a push of words failed, and how many of them were decoded is not known; make a new decoder"};
+}
+
+// Takes bytes from the front. `taken` tells how many, also after would_block.
+Result<void> WordFeed::take(std::span<const uint8_t> bytes, size_t& taken) {
+  taken = begin(bytes);
   while (taken < bytes.size() || (!is_open_ && rest_.size() >= word_bytes_)) {
     const auto batch = bytes.subspan(taken, std::min<size_t>(bytes.size() - taken, capacity_bytes_));
     const auto pushed = push_batch(batch);
-    if (!pushed) {
-      const ErrorCode code = pushed.error().code;
-      if (code == ErrorCode::would_block && taken > 0) break;
-      const bool whole = code == ErrorCode::would_block || code == ErrorCode::refused_batch;
-      return whole ? pushed.error() : stream_->fail(pushed.error());
-    }
+    if (!pushed) return pushed.error();
     taken += *pushed;
     if (*pushed < batch.size()) break;
   }
-  return taken;
+  return {};
 }
 
 // Words before the first TIME_HIGH mean nothing. Returns how many bytes were taken; that word stays in rest_.
@@ -211,7 +231,7 @@ Result<void> WordFeed::submit_open() {
   const auto words = static_cast<uint32_t>(fill_ / word_bytes_);
   auto commands = stream_->take_commands();
   if (!commands) return commands.error();
-  const auto submitted = [&]() -> Result<void> {
+  auto submitted = as_result([&]() -> Result<void> {
     const auto copy = [&](Commands& c) {
       c.copy(slot.piece.words.host, 0, slot.piece.words.device, 0, uint64_t{words} * word_bytes_);
     };
@@ -219,7 +239,7 @@ Result<void> WordFeed::submit_open() {
     if (!clear_) decoder_.record_reset((*commands)->compute);
     decoder_.record_count((*commands)->compute, slot.piece, words);
     return stream_->submit(**commands);
-  }();
+  });
   // Also after a failure: the transfer may be in flight.
   stream_->push_pool_.give_back(std::move(*commands));
   if (!submitted) return submitted;
@@ -248,7 +268,7 @@ Result<void> WordFeed::settle_all() {
 
 Result<void> WordFeed::discard_all() {
   if (auto r = submit_open(); !r) return r;
-  for (; !submitted_.empty(); submitted_.pop_front()) {
+  for (; !submitted_.empty(); settled()) {
     Slot& slot = slots_[submitted_.front()];
     if (auto r = read_result(slot); !r) return r;
   }
@@ -259,10 +279,10 @@ Result<void> WordFeed::settle_oldest() {
   Slot& slot = slots_[submitted_.front()];
   if (auto r = read_result(slot); !r) return r;
   if (auto r = submit_events(slot); !r) {
-    if (r.error().code == ErrorCode::refused_batch) submitted_.pop_front();
+    if (r.error().code == ErrorCode::refused_batch) settled();
     return r;
   }
-  submitted_.pop_front();
+  settled();
   return {};
 }
 
@@ -316,14 +336,17 @@ Result<void> WordFeed::submit_events(Slot& slot) {
     auto commands = stream_->take_commands();
     if (!commands) return commands.error();
     Commands& c = (*commands)->compute;
-    const auto submitted = [&]() -> Result<void> {
+    auto submitted = as_result([&]() -> Result<void> {
       if (auto r = (*commands)->begin(); !r) return r;
       decoder_.record_write(c, slot.piece, slot.words, slot.next_event, count);
       stream_->pipeline_->record_push(c, *binding_, 0, count, stream_->facts_);
       return stream_->submit(**commands);
-    }();
+    });
     stream_->push_pool_.give_back(std::move(*commands));
-    if (!submitted) return submitted;
+    if (!submitted) {
+      stream_->pipeline_->recording_lost();
+      return submitted;
+    }
     slot.last_use = stream_->last_submission_;
     slot.next_event += count;
   }
@@ -349,29 +372,35 @@ Result<std::vector<Event>> WordFeed::events_of(const Slot& slot) {
 }
 
 Result<ReadReport> WordFeed::report() {
-  std::lock_guard lock(stream_->mutex_);
-  if (auto r = stream_->usable(); !r) return r.error();
-  if (auto r = settle_all(); !r) return r.error();
-  ReadReport report = report_;
-  report.truncated_bytes = gathered();
-  report.gaps -= gap_at_begin_ ? 1 : 0;
-  return report;
+  return stream_->exclusively([&]() -> Result<ReadReport> {
+    if (auto r = stream_->usable(); !r) return r.error();
+    if (auto r = usable(); !r) return r.error();
+    if (auto r = settle_all(); !r) return r.error();
+    ReadReport report = report_;
+    report.truncated_bytes = gathered();
+    report.gaps -= gap_at_begin_ ? 1 : 0;
+    return report;
+  });
 }
 
 Result<std::optional<int64_t>> WordFeed::newest() {
-  std::lock_guard lock(stream_->mutex_);
-  if (auto r = stream_->usable(); !r) return r.error();
-  if (auto r = stream_->submit_gathered(); !r) return r.error();
-  return stream_->facts_.newest;
+  return stream_->exclusively([&]() -> Result<std::optional<int64_t>> {
+    if (auto r = stream_->usable(); !r) return r.error();
+    if (auto r = stream_->submit_gathered(); !r) return r.error();
+    return stream_->facts_.newest;
+  });
 }
 
 Result<std::unique_ptr<GpuDecoder>> make_gpu_decoder(GpuRepresentation& representation, CameraWords words) {
-  auto* const fed = dynamic_cast<StreamFed*>(&representation);
-  if (fed == nullptr) {
-    return Error{ErrorCode::illegal_parameter,
-                 "only representations that scarf made on a device take words; decode them with open_events"};
-  }
-  return WordFeed::create(fed->stream(), words);
+  return as_result([&]() -> Result<std::unique_ptr<GpuDecoder>> {
+    auto* const fed = dynamic_cast<StreamFed*>(&representation);
+    if (fed == nullptr) {
+      return Error{
+          ErrorCode::illegal_parameter,
+          "only representations that scarf made on a device take words; decode them with open_events"};
+    }
+    return WordFeed::create(fed->stream(), words);
+  });
 }
 
 }  // namespace scarf

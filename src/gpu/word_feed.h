@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -56,6 +55,9 @@ class WordFeed final : public GpuDecoder {
   Slot& open() { return slots_[open_]; }
   size_t gathered() const { return is_open_ ? fill_ : rest_.size(); }
 
+  Result<void> usable() const;
+  Result<void> take(std::span<const uint8_t> bytes, size_t& taken);
+  void settled() { submitted_.erase(submitted_.begin()); }
   size_t begin(std::span<const uint8_t> bytes);
   Result<size_t> push_batch(std::span<const uint8_t> bytes);
   uint64_t most_wraps_in(std::span<const uint8_t> bytes) const;
@@ -79,11 +81,12 @@ class WordFeed final : public GpuDecoder {
   bool clear_ = false;         // the decoder's state has been initialised
   bool started_ = false;       // the first TIME_HIGH was met
   bool gap_at_begin_ = false;  // counted there, and none
+  bool lost_ = false;          // a push failed half-way: where the words stand is not known
   bool is_open_ = false;       // slot open_ gathers
   size_t open_ = 0;
   size_t fill_ = 0;                // bytes in the open slot
   std::vector<uint8_t> rest_;      // bytes that come before those of the next slot
-  std::deque<size_t> submitted_;   // slots not settled yet, oldest first
+  std::vector<size_t> submitted_;  // slots not settled yet, oldest first
   uint64_t wraps_ = 0;             // of the clock, up to the last result that was read ...
   uint64_t most_wraps_ahead_ = 0;  // ... and at most in the open slot
   int64_t last_time_ = -1;         // of the last event that was counted; -1: none

@@ -1,5 +1,7 @@
 #include "io/atomic_file.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <system_error>
 
@@ -33,16 +35,15 @@ AtomicFile::AtomicFile(const std::string& path) : path_(link_followed(path)), na
 }
 
 AtomicFile::~AtomicFile() {
-  std::error_code ignored;
-  if (name_ != path_) fs::remove(name_, ignored);
+  if (name_ != path_ && !placed_) unlink(name_.c_str());  // allocates nothing
 }
 
 Result<void> AtomicFile::put_in_place() {
-  if (name_ == path_) return {};
+  if (name_ == path_ || placed_) return {};
   std::error_code error;
   fs::rename(name_, path_, error);
   if (error) return Error{ErrorCode::io, text("cannot write ", path_, ": ", error.message())};
-  name_ = path_;
+  placed_ = true;
   return {};
 }
 

@@ -25,6 +25,7 @@ class AtomicFile {
  private:
   std::string path_;
   std::string name_;
+  bool placed_ = false;
 };
 
 }  // namespace scarf

@@ -22,13 +22,15 @@ Error system_error(const char* what) {
 // A file descriptor, closed with the last copy of the reader's function; standard input stays open.
 class Descriptor {
  public:
-  explicit Descriptor(int fd) : fd_(fd) {}
+  explicit Descriptor(const std::string& path)
+      : fd_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
   ~Descriptor() {
-    if (fd_ != STDIN_FILENO) close(fd_);
+    if (fd_ >= 0 && fd_ != STDIN_FILENO) close(fd_);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
+  int number() const { return fd_; }  ///< negative: it could not be opened
   Result<size_t> read_some(std::span<uint8_t> out) const {
     for (;;) {
       const ssize_t count = read(fd_, out.data(), out.size());
@@ -51,11 +53,10 @@ ByteReader::ByteReader(ReadSome read_some, uint64_t total)
       total_(total) {}
 
 Result<ByteReader> ByteReader::open(const std::string& path) {
-  const int fd = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return system_error("cannot open");
-  auto file = std::make_shared<Descriptor>(fd);
+  const auto file = std::make_shared<Descriptor>(path);
+  if (file->number() < 0) return system_error("cannot open");
   struct stat status {};
-  const bool sized = fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
+  const bool sized = fstat(file->number(), &status) == 0 && S_ISREG(status.st_mode);
   return ByteReader([file](std::span<uint8_t> out) { return file->read_some(out); },
                     sized ? static_cast<uint64_t>(status.st_size) : 0);
 }

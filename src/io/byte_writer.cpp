@@ -34,16 +34,17 @@ ByteWriter::~ByteWriter() {
 Result<ByteWriter> ByteWriter::create(const std::string& path) {
   if (path == "-") return standard_output();
   auto file = std::make_unique<AtomicFile>(path);
-  const int fd = open(file->name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) return system_error(path, "cannot create");
-  return ByteWriter(fd, path, std::move(file));
+  ByteWriter writer(-1, path, std::move(file));  // owns the descriptor from its first moment on
+  writer.fd_ = open(writer.file_->name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (writer.fd_ < 0) return system_error(path, "cannot create");
+  return writer;
 }
 
 Result<ByteWriter> ByteWriter::standard_output() {
-  const std::string name = "standard output";
-  const int fd = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
-  if (fd < 0) return system_error(name, "cannot write");
-  return ByteWriter(fd, name, nullptr);
+  ByteWriter writer(-1, "standard output", nullptr);
+  writer.fd_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  if (writer.fd_ < 0) return system_error(writer.path_, "cannot write");
+  return writer;
 }
 
 Result<void> ByteWriter::flush() {

@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "io/format.h"
 #include "io/known_formats.h"
+#include "io/memory_guard.h"
 #include "io/sensor_size.h"
 
 namespace scarf {
@@ -79,8 +80,10 @@ std::vector<FormatInfo> formats() {
   return list;
 }
 
-Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view name,
-                                                 SensorSize sensor) {
+namespace {
+
+Result<std::unique_ptr<EventSink>> create_unguarded(const std::string& path, std::string_view name,
+                                                    SensorSize sensor) {
   const auto format = find_format(name);
   if (!format) return format.error();
   if ((*format)->create == nullptr) {
@@ -91,6 +94,17 @@ Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::s
   const auto legal = checked_sensor(sensor.width, sensor.height, text(path, ": the sensor size given"));
   if (!legal) return Error{ErrorCode::illegal_parameter, legal.error().message};
   return (*format)->create(path, sensor);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view name,
+                                                 SensorSize sensor) {
+  return as_result([&]() -> Result<std::unique_ptr<EventSink>> {
+    auto sink = create_unguarded(path, name, sensor);
+    if (!sink) return sink.error();
+    return guarded(*std::move(sink));
+  });
 }
 
 }  // namespace scarf

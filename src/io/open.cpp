@@ -9,6 +9,7 @@
 #include "io/foreign_format.h"
 #include "io/format.h"
 #include "io/look_ahead.h"
+#include "io/memory_guard.h"
 #include "io/prophesee_header.h"
 
 namespace scarf {
@@ -120,7 +121,7 @@ Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options
   const auto format = options.format.empty() ? recognise(input) : find_format(options.format);
   if (!format) return named(name, format.error());
   auto source = open_as<Source>(**format, std::move(input), options);
-  if (source) return source;
+  if (source) return guarded(*std::move(source));
   Error error = named(name, source.error());
   // Who names the format says that this is a recording.
   if (!options.format.empty() && error.code == ErrorCode::unrecognised) error.code = ErrorCode::bad_input;
@@ -141,26 +142,28 @@ Result<std::unique_ptr<Source>> open_path(const std::string& path, const ReadOpt
 
 Result<std::unique_ptr<EventSource>> open_input(ByteReader input, const std::string& name,
                                                 const ReadOptions& options) {
-  return open_any<EventSource>({std::move(input), "", name, false, {}}, options);
+  return as_result([&] { return open_any<EventSource>({std::move(input), "", name, false, {}}, options); });
 }
 
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options) {
-  return open_path<EventSource>(path, options);
+  return as_result([&] { return open_path<EventSource>(path, options); });
 }
 
 Result<std::unique_ptr<FrameSource>> open_frames(const std::string& path, const ReadOptions& options) {
-  return open_path<FrameSource>(path, options);
+  return as_result([&] { return open_path<FrameSource>(path, options); });
 }
 
 Result<std::unique_ptr<TriggerSource>> open_triggers(const std::string& path, const ReadOptions& options) {
-  return open_path<TriggerSource>(path, options);
+  return as_result([&] { return open_path<TriggerSource>(path, options); });
 }
 
 Result<SensorSize> require_sensor(const EventSource& source, const std::string& path) {
   if (const auto sensor = source.sensor()) return *sensor;
-  return Error{
-      ErrorCode::bad_input,
-      text(display_name(path), ": the file does not say its sensor size; give it with --geometry WxH")};
+  return as_result([&]() -> Result<SensorSize> {
+    return Error{
+        ErrorCode::bad_input,
+        text(display_name(path), ": the file does not say its sensor size; give it with --geometry WxH")};
+  });
 }
 
 }  // namespace scarf

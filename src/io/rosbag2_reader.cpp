@@ -189,6 +189,7 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
       in_list = false;
     }
   }
+  if (metadata.bad()) return Error{ErrorCode::io, text("cannot read ", kMetadata, " to its end")};
   // Other programs have a metadata.yaml of their own.
   if (paths.empty())
     return Error{ErrorCode::unrecognised, text(kMetadata, " names no files (relative_file_paths)")};

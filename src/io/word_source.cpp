@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "io/byte_reader.h"
+#include "io/memory_guard.h"
 #include "io/prophesee_header.h"
 
 namespace scarf {
@@ -35,9 +36,7 @@ class WordFile final : public WordSource {
   std::optional<SensorSize> sensor_;
 };
 
-}  // namespace
-
-Result<std::unique_ptr<WordSource>> open_words(const std::string& path, const ReadOptions& options) {
+Result<std::unique_ptr<WordSource>> open_unguarded(const std::string& path, const ReadOptions& options) {
   if (path == "-") {
     return Error{ErrorCode::illegal_parameter,
                  "standard input cannot be opened twice, as undecoded words need; give a file"};
@@ -57,6 +56,16 @@ Result<std::unique_ptr<WordSource>> open_words(const std::string& path, const Re
   }
   return std::unique_ptr<WordSource>(
       std::make_unique<WordFile>(*std::move(input), path, format, (*events)->sensor()));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WordSource>> open_words(const std::string& path, const ReadOptions& options) {
+  return as_result([&]() -> Result<std::unique_ptr<WordSource>> {
+    auto words = open_unguarded(path, options);
+    if (!words) return words.error();
+    return guarded(*std::move(words));
+  });
 }
 
 }  // namespace scarf

@@ -34,12 +34,14 @@ Result<std::vector<uint8_t>> ZipArchive::read_whole(const Member& member, uint64
 #ifdef SCARF_HAS_LIBZIP
 
 struct ZipArchive::Handle {
-  explicit Handle(zip_t* archive) : zip(archive) {}
-  ~Handle() { zip_discard(zip); }
+  Handle() = default;
+  ~Handle() {
+    if (zip != nullptr) zip_discard(zip);
+  }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
 
-  zip_t* zip;
+  zip_t* zip = nullptr;
 };
 
 namespace {
@@ -52,7 +54,10 @@ struct CloseMember {
 
 Result<ZipArchive> ZipArchive::open(const std::string& path) {
   int code = 0;
-  zip_t* const zip = zip_open(path.c_str(), ZIP_RDONLY, &code);
+  ZipArchive archive;
+  const auto handle = std::make_shared<Handle>();
+  archive.handle_ = handle;
+  zip_t* const zip = handle->zip = zip_open(path.c_str(), ZIP_RDONLY, &code);
   if (zip == nullptr) {
     zip_error_t error;
     zip_error_init_with_code(&error, code);
@@ -60,8 +65,6 @@ Result<ZipArchive> ZipArchive::open(const std::string& path) {
     zip_error_fini(&error);
     return Error{ErrorCode::bad_input, text("the zip archive cannot be read: ", why)};
   }
-  ZipArchive archive;
-  archive.handle_ = std::make_shared<Handle>(zip);
   const zip_int64_t count = zip_get_num_entries(zip, 0);
   for (zip_int64_t i = 0; i < count; ++i) {
     zip_stat_t status;
@@ -76,11 +79,6 @@ Result<ZipArchive> ZipArchive::open(const std::string& path) {
 }
 
 Result<ByteReader> ZipArchive::read(const Member& member) const {
-  zip_file_t* const opened = zip_fopen_index(handle_->zip, member.index, 0);
-  if (opened == nullptr) {
-    return Error{ErrorCode::bad_input, text(member.name, " in the zip archive cannot be read: ",
-                                            zip_error_strerror(zip_get_error(handle_->zip)))};
-  }
   // The member goes before the archive that it is of.
   struct Open {
     std::shared_ptr<Handle> archive;
@@ -90,7 +88,11 @@ Result<ByteReader> ZipArchive::read(const Member& member) const {
   };
   auto open = std::make_shared<Open>();
   open->archive = handle_;
-  open->file.reset(opened);
+  open->file.reset(zip_fopen_index(handle_->zip, member.index, 0));
+  if (open->file == nullptr) {
+    return Error{ErrorCode::bad_input, text(member.name, " in the zip archive cannot be read: ",
+                                            zip_error_strerror(zip_get_error(handle_->zip)))};
+  }
   open->name = member.name;
   const auto read_some = [open](std::span<uint8_t> out) -> Result<size_t> {
     if (open->broken) return size_t{0};

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/batch_check.h"
+#include "gpu/on_device.h"
 #include "replay/pipeline.h"
 #include "scarf/replay.h"
 #include "vulkan/commands.h"
@@ -33,6 +34,7 @@ class GpuReplay final : public Replay {
   ~GpuReplay() override {
     // Nothing may be destroyed while the device uses it. A lost device uses nothing; after any other failure
     // to wait, waiting for everything is tried.
+    if (device_.forked()) return;
     for (const Turn& turn : turns_) {
       if (!turn.commands.wait()) device_.calls().DeviceWaitIdle(device_.handle());
     }
@@ -49,6 +51,8 @@ class GpuReplay final : public Replay {
       auto group = pipeline_->make_group();
       if (!group) return group.error();
       turn.group = std::move(*group);
+      turn.frames.reserve(plan.group_frames);
+      turn.events_before.reserve(plan.group_frames);
     }
     Commands& c = turns_[0].commands;
     if (auto r = c.begin(); !r) return r;
@@ -60,40 +64,42 @@ class GpuReplay final : public Replay {
   const Geometry& geometry() const override { return geometry_; }
 
   Result<PushReport> push(std::span<const Event> events) override {
-    if (failure_) return *failure_;
-    const auto batch = check_batch(events, geometry_.sensor(), t_first_);
-    if (!batch) return batch.error();
-    t_first_ = batch->t_first;
-    const uint32_t most = pipeline_->plan().group_events;
-    for (const Event& e : events) {
-      if (!geometry_.sensor().contains(e)) continue;
-      if (open().events == most) {
-        if (auto r = remember(close_group()); !r) return r.error();
-      }
-      Turn& turn = open();
-      turn.group->events.template mapped_as<uint32_t>()[turn.events++] = e.x | uint32_t{e.y} << 16;
-      ++events_;
-    }
-    return PushReport{events.size(), batch->outside};
+    return as_result([&]() -> Result<PushReport> {
+      if (auto r = usable(); !r) return r.error();
+      const auto batch = check_batch(events, geometry_.sensor(), t_first_);
+      if (!batch) return batch.error();
+      auto taken = whole([&]() -> Result<void> {
+        t_first_ = batch->t_first;
+        for (const Event& e : events) {
+          if (!geometry_.sensor().contains(e)) continue;
+          if (auto r = take(e); !r) return r;
+        }
+        return {};
+      });
+      if (!taken) return taken.error();
+      return PushReport{events.size(), batch->outside};
+    });
   }
 
   Result<void> frame() override {
-    if (failure_) return *failure_;
-    if (open().frames.size() == pipeline_->plan().group_frames) {
-      if (auto r = remember(close_group()); !r) return r;
-    }
-    open().frames.push_back(open().events);
-    open().events_before.push_back(events_);
-    return {};
+    return whole([&]() -> Result<void> {
+      if (open().frames.size() == pipeline_->plan().group_frames) {
+        if (auto r = close_group(); !r) return r;
+      }
+      open().frames.push_back(open().events);
+      open().events_before.push_back(events_);
+      return {};
+    });
   }
 
   Result<void> finish() override {
-    if (failure_) return *failure_;
-    // Closing hands over the group before, then the next turn is the one that was closed.
-    for (size_t i = 0; i < turns_.size(); ++i) {
-      if (auto r = remember(close_group()); !r) return r;
-    }
-    return {};
+    return whole([&]() -> Result<void> {
+      // Closing hands over the group before, then the next turn is the one that was closed.
+      for (size_t i = 0; i < turns_.size(); ++i) {
+        if (auto r = close_group(); !r) return r;
+      }
+      return {};
+    });
   }
 
   std::vector<StageTime> stage_times() const override {
@@ -116,9 +122,38 @@ class GpuReplay final : public Replay {
 
   Turn& open() { return turns_[open_]; }
 
-  Result<void> remember(Result<void> result) {
-    if (!result) failure_ = result.error();
-    return result;
+  Result<void> usable() const {
+    if (failure_) return copy_of(*failure_);
+    if (stopped_) {
+      return Error{ErrorCode::illegal_parameter,
+                   "the function that takes the frames threw an exception; make a new replay"};
+    }
+    return device_.check_process();
+  }
+
+  // Does all that `step` does; otherwise every later call says why not. Whatever it throws is a failure, too:
+  // the frames are taken by a function of others.
+  template <class Step>
+  Result<void> whole(Step step) {
+    return as_result([&]() -> Result<void> {
+      if (auto r = usable(); !r) return r;
+      stopped_ = true;  // unless it comes back
+      auto done = as_result(step);
+      stopped_ = false;
+      if (!done) failure_ = copy_of(done.error());
+      return done;
+    });
+  }
+
+  // An event inside the sensor.
+  Result<void> take(const Event& e) {
+    if (open().events == pipeline_->plan().group_events) {
+      if (auto r = close_group(); !r) return r;
+    }
+    Turn& turn = open();
+    turn.group->events.template mapped_as<uint32_t>()[turn.events++] = e.x | uint32_t{e.y} << 16;
+    ++events_;
+    return {};
   }
 
   // Submits the open group, if there is anything in it, and opens the other turn: the frames of the group
@@ -181,15 +216,15 @@ class GpuReplay final : public Replay {
   uint64_t events_ = 0;  // inside the sensor
   uint64_t frames_ = 0;  // handed over
   std::optional<Error> failure_;
+  bool stopped_ = false;
   std::map<std::string, StageTime> stage_times_;
 };
 
-}  // namespace
-
 template <class T>
-Result<std::unique_ptr<Replay>> make_gpu_replay(std::shared_ptr<GpuContext> context, const Geometry& geometry,
-                                                TakeReplayFrame<T> take, double accumulation,
-                                                const ReplayOptions& options) {
+Result<std::unique_ptr<Replay>> make(std::shared_ptr<GpuContext> context, const Geometry& geometry,
+                                     TakeReplayFrame<T> take, double accumulation,
+                                     const ReplayOptions& options) {
+  if (auto r = check_context(context); !r) return r.error();
   const auto checked = checked_geometry(geometry);
   if (!checked) return checked.error();
   const auto levels = make_levels(accumulation, geometry.capacity);
@@ -199,6 +234,16 @@ Result<std::unique_ptr<Replay>> make_gpu_replay(std::shared_ptr<GpuContext> cont
   auto replay = std::make_unique<GpuReplay<T>>(std::move(context), *checked, std::move(take));
   if (auto r = replay->start(*levels, *plan); !r) return r.error();
   return std::unique_ptr<Replay>(std::move(replay));
+}
+
+}  // namespace
+
+template <class T>
+Result<std::unique_ptr<Replay>> make_gpu_replay(std::shared_ptr<GpuContext> context, const Geometry& geometry,
+                                                TakeReplayFrame<T> take, double accumulation,
+                                                const ReplayOptions& options) {
+  return as_result(
+      [&] { return make<T>(std::move(context), geometry, std::move(take), accumulation, options); });
 }
 
 template Result<std::unique_ptr<Replay>> make_gpu_replay(std::shared_ptr<GpuContext>, const Geometry&,

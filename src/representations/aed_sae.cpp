@@ -128,6 +128,9 @@ class AedPipeline final : public ImagePipeline, private EventLogOwner {
     commands.mark("last_time");
   }
 
+  // The stamps may not have been cleared.
+  void recording_lost() override { stamp_ = UINT32_MAX; }
+
   Result<Answer<Image<uint8_t>>> record_u8(Commands& commands, const StreamFacts&,
                                            std::optional<int64_t>) override {
     constexpr uint32_t kPixelsPerInvocation = 4;

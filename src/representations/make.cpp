@@ -85,11 +85,11 @@ bool asks_for_newest(const Parameters& parameters) {
          std::holds_alternative<SaeParameters>(parameters);
 }
 
-}  // namespace
-
-Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(
-    std::shared_ptr<GpuContext> context, const Parameters& parameters, SensorSize sensor,
-    const GpuOptions& options, std::span<const FilterParameters> filters) {
+Result<std::unique_ptr<GpuRepresentation>> make(std::shared_ptr<GpuContext> context,
+                                                const Parameters& parameters, SensorSize sensor,
+                                                const GpuOptions& options,
+                                                std::span<const FilterParameters> filters) {
+  if (auto r = check_context(context); !r) return r.error();
   const auto checked = checked_parameters(parameters);
   if (!checked) return checked.error();
   if (const auto* window = std::get_if<TimeWindowParameters>(&*checked);
@@ -113,6 +113,14 @@ Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(
   if (!feed) return feed.error();
   return std::unique_ptr<GpuRepresentation>(
       std::make_unique<DeviceRepresentation>(std::move(*feed), images, query_changes_state(*checked)));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GpuRepresentation>> make_gpu_representation(
+    std::shared_ptr<GpuContext> context, const Parameters& parameters, SensorSize sensor,
+    const GpuOptions& options, std::span<const FilterParameters> filters) {
+  return as_result([&] { return make(std::move(context), parameters, sensor, options, filters); });
 }
 
 }  // namespace scarf

@@ -38,7 +38,7 @@ class DeviceEncoder final : public GpuEncoder {
 
   ~DeviceEncoder() override {
     // Nothing may be destroyed while the device uses it.
-    if (!stream_->finish()) device_.calls().DeviceWaitIdle(device_.handle());
+    if (!device_.forked() && !stream_->finish()) device_.calls().DeviceWaitIdle(device_.handle());
   }
 
   Result<void> build(const EncodingParameters& parameters, const Geometry& geometry) {
@@ -86,6 +86,7 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
   const Geometry& geometry() const override { return geometry_; }
 
   Result<std::unique_ptr<GpuEncoder>> make_encoder(const EncodingParameters& parameters) {
+    if (auto r = stream_->device().check_process(); !r) return r.error();
     auto encoder = std::make_unique<DeviceEncoder>(stream_->device(), stream_, pipeline_);
     if (auto r = encoder->build(parameters, geometry_); !r) return r.error();
     return std::unique_ptr<GpuEncoder>(std::move(encoder));
@@ -102,19 +103,25 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
     return image<int32_t>(mode, &ScarfPipeline::record_counts);
   }
   Pending<Image<uint8_t>> u8_planes(PolarityMode mode) override {
-    if (auto r = check_dense_mode(mode); !r) return r.error();
-    return image<uint8_t>(mode, &ScarfPipeline::record_u8);
+    return as_result([&]() -> Pending<Image<uint8_t>> {
+      if (auto r = check_dense_mode(mode); !r) return r.error();
+      return image<uint8_t>(mode, &ScarfPipeline::record_u8);
+    });
   }
   Pending<Image<float>> float_planes(PolarityMode mode) override {
-    if (auto r = check_dense_mode(mode); !r) return r.error();
-    return image<float>(mode, &ScarfPipeline::record_float);
+    return as_result([&]() -> Pending<Image<float>> {
+      if (auto r = check_dense_mode(mode); !r) return r.error();
+      return image<float>(mode, &ScarfPipeline::record_float);
+    });
   }
   Pending<std::vector<Event>> active_events(EventOrder order) override {
     return extract(0, geometry_.patches(), /*active_only=*/true, order);
   }
   Pending<std::vector<Event>> patch_events(int64_t patch, bool active_only) override {
-    if (auto r = check_patch(geometry_, patch); !r) return r.error();
-    return extract(patch, 1, active_only, EventOrder::by_patch);
+    return as_result([&]() -> Pending<std::vector<Event>> {
+      if (auto r = check_patch(geometry_, patch); !r) return r.error();
+      return extract(patch, 1, active_only, EventOrder::by_patch);
+    });
   }
 
   Pending<Snapshot> snapshot() override {
@@ -178,12 +185,10 @@ class DeviceScarf final : public OnDevice<GpuScarf> {
   const Geometry geometry_;
 };
 
-}  // namespace
-
-Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
-                                                 const Geometry& geometry, double accumulation,
-                                                 const GpuOptions& options,
-                                                 std::span<const FilterParameters> filters) {
+Result<std::unique_ptr<GpuScarf>> make(std::shared_ptr<GpuContext> context, const Geometry& geometry,
+                                       double accumulation, const GpuOptions& options,
+                                       std::span<const FilterParameters> filters) {
+  if (auto r = check_context(context); !r) return r.error();
   const auto checked = checked_geometry(geometry);
   if (!checked) return checked.error();
   const auto levels = make_levels(accumulation, geometry.capacity);
@@ -200,11 +205,22 @@ Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> con
   return std::unique_ptr<GpuScarf>(std::make_unique<DeviceScarf>(std::move(*feed), scarf, *checked));
 }
 
+}  // namespace
+
+Result<std::unique_ptr<GpuScarf>> make_gpu_scarf(std::shared_ptr<GpuContext> context,
+                                                 const Geometry& geometry, double accumulation,
+                                                 const GpuOptions& options,
+                                                 std::span<const FilterParameters> filters) {
+  return as_result([&] { return make(std::move(context), geometry, accumulation, options, filters); });
+}
+
 Result<std::unique_ptr<GpuEncoder>> make_gpu_encoder(GpuScarf& scarf, const EncodingParameters& parameters) {
-  auto* const device = dynamic_cast<DeviceScarf*>(&scarf);
-  if (device != nullptr) return device->make_encoder(parameters);
-  return Error{ErrorCode::illegal_parameter,
-               "this GpuScarf was not made by make_gpu_scarf; encode its active_events() instead"};
+  return as_result([&]() -> Result<std::unique_ptr<GpuEncoder>> {
+    auto* const device = dynamic_cast<DeviceScarf*>(&scarf);
+    if (device != nullptr) return device->make_encoder(parameters);
+    return Error{ErrorCode::illegal_parameter,
+                 "this GpuScarf was not made by make_gpu_scarf; encode its active_events() instead"};
+  });
 }
 
 }  // namespace scarf

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/ring_head.h"
 #include "gpu/pipeline.h"
 #include "gpu/stream.h"
 #include "gpu/tone.h"
@@ -44,6 +45,8 @@ class ScarfPipeline : public Pipeline {
   /// count, sum, scan, prune (where it pays), place; or append.
   void record_push(vulkan::Commands& commands, EventBinding& binding, uint32_t first, uint32_t count,
                    const StreamFacts& facts) override;
+  /// Heads may not have been settled.
+  void recording_lost() override { unsettled_laps_ = kMostHeadLaps; }
   uint64_t memory_bytes() const override { return bytes_; }
 
   Result<std::unique_ptr<ExtractTarget>> make_extract_target() const;

@@ -187,14 +187,16 @@ Result<void> check(const SimulationOptions& o) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> make_simulation(const SimulationOptions& options) {
-  if (auto r = check(options); !r) return r.error();
-  const simulate::SceneMaker make_scene = simulate::scene_maker(options.scene);
-  if (make_scene == nullptr) {
-    std::string names;
-    for (const auto name : scene_names()) names += (names.empty() ? "" : ", ") + std::string(name);
-    return Error{ErrorCode::illegal_parameter, text("scene is '", options.scene, "', legal is ", names)};
-  }
-  return simulate::simulate_scene(options, make_scene(options.sensor, options.duration_s));
+  return as_result([&]() -> Result<std::unique_ptr<Simulation>> {
+    if (auto r = check(options); !r) return r.error();
+    const simulate::SceneMaker make_scene = simulate::scene_maker(options.scene);
+    if (make_scene == nullptr) {
+      std::string names;
+      for (const auto name : scene_names()) names += (names.empty() ? "" : ", ") + std::string(name);
+      return Error{ErrorCode::illegal_parameter, text("scene is '", options.scene, "', legal is ", names)};
+    }
+    return simulate::simulate_scene(options, make_scene(options.sensor, options.duration_s));
+  });
 }
 
 std::vector<std::string_view> scene_names() {

@@ -105,9 +105,9 @@ Result<Buffer> Buffer::create(const Device& device, const char* name, uint64_t b
 }
 
 Buffer::~Buffer() {
-  if (device_ == nullptr) return;
+  if (device_ == nullptr || device_->forked()) return;
   const Table& calls = device_->calls();
-  if (!guards_intact()) device_->add_message(text("a shader wrote beyond the end of ", name_));
+  if (!guards_intact()) device_->add_message("a shader wrote beyond the end of ", name_);
   if (buffer_ != VK_NULL_HANDLE) calls.DestroyBuffer(device_->handle(), buffer_, nullptr);
   if (memory_ != VK_NULL_HANDLE) calls.FreeMemory(device_->handle(), memory_, nullptr);
 }

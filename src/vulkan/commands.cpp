@@ -47,7 +47,7 @@ Result<Commands> Commands::create(Device& device, Queue& queue) {
 }
 
 Commands::~Commands() {
-  if (device_ == nullptr) return;
+  if (device_ == nullptr || device_->forked()) return;
   const Table& calls = device_->calls();
   if (queries_ != VK_NULL_HANDLE) calls.DestroyQueryPool(device_->handle(), queries_, nullptr);
   if (pool_ != VK_NULL_HANDLE) calls.DestroyCommandPool(device_->handle(), pool_, nullptr);

@@ -54,7 +54,8 @@ const char* result_name(VkResult result) {
   }
 }
 
-Error call_error(VkResult result, const char* call) {
+// Without memory for a sentence the message is shorter.
+Error call_error(VkResult result, const char* call) noexcept try {
   const std::string what = text("vk", call, ": ", result_name(result), " (", static_cast<int>(result), ")");
   switch (result) {
     case VK_ERROR_DEVICE_LOST:
@@ -68,6 +69,9 @@ Error call_error(VkResult result, const char* call) {
     default:
       return device_error(what);
   }
+} catch (const std::bad_alloc&) {
+  return {result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::out_of_memory,
+          "out of memory"};
 }
 
 const char* type_name(VkPhysicalDeviceType type) {
@@ -514,11 +518,15 @@ void Device::save_cache() const {
 }
 
 Device::~Device() {
+  if (forked()) return;
   if (device_ != VK_NULL_HANDLE) {
     // After a partial start the table may not be loaded: the device then has no other objects.
     if (table_.DeviceWaitIdle != nullptr) table_.DeviceWaitIdle(device_);
     if (cache_ != VK_NULL_HANDLE) {
-      save_cache();
+      try {
+        save_cache();
+      } catch (const std::exception&) {  // costs time only
+      }
       table_.DestroyPipelineCache(device_, cache_, nullptr);
     }
     for (Queue* queue : {&compute_, &transfer_}) {
@@ -538,14 +546,26 @@ Result<void> Device::check(VkResult result, const char* call) const {
   return call_error(result, call);
 }
 
-void Device::add_message(std::string message) const {
+Result<void> Device::check_process() const {
+  if (!forked()) return {};
+  return Error{ErrorCode::device,
+               "this process was forked from the one that made the context; make a context in this one"};
+}
+
+void Device::add_message(const char* message, const char* about) const noexcept {
   std::lock_guard lock(messages_mutex_);
-  messages_.push_back(std::move(message));
+  try {
+    messages_.push_back(text(message, about));
+  } catch (const std::bad_alloc&) {
+    message_lost_ = true;
+  }
 }
 
 std::vector<std::string> Device::messages() const {
   std::lock_guard lock(messages_mutex_);
-  return messages_;
+  std::vector<std::string> all = messages_;
+  if (message_lost_) all.emplace_back("a message was lost for lack of memory");
+  return all;
 }
 
 Result<std::vector<DeviceInfo>> list(const TableHook& hook) {

@@ -1,6 +1,9 @@
 // Instance, device choice, queues and errors: the ground that everything Vulkan stands on.
 #pragma once
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -71,8 +74,15 @@ class Device {
   /// Turns the result of a call into an error; remembers a lost device, after which every check fails.
   Result<void> check(VkResult result, const char* call) const;
 
+  /// Whether this process was forked from the one that made the device. The driver's threads are not here, so
+  /// that to wait would be for ever, and what the device does is the other process's: nothing may be called,
+  /// not even to destroy.
+  bool forked() const { return getpid() != process_; }
+  /// Errors: device, if forked().
+  Result<void> check_process() const;
+
   /// Messages of the validation layers, and of scarf's own memory checks.
-  void add_message(std::string message) const;
+  void add_message(const char* message, const char* about = "") const noexcept;
   std::vector<std::string> messages() const;
 
  private:
@@ -84,6 +94,7 @@ class Device {
   void save_cache() const;
   friend Result<std::vector<DeviceInfo>> list(const TableHook& hook);
 
+  const pid_t process_ = getpid();
   DeviceOptions options_;
   TableHook hook_;
   Table table_;
@@ -103,6 +114,7 @@ class Device {
   mutable std::atomic<bool> lost_ = false;
   mutable std::mutex messages_mutex_;
   mutable std::vector<std::string> messages_;
+  mutable bool message_lost_ = false;  // for lack of memory
 };
 
 /// All devices, ranked.

@@ -77,6 +77,9 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
     return r.error();
   }
 
+  std::vector<VkSpecializationMapEntry> entries(constants.size());
+  for (uint32_t i = 0; i < constants.size(); ++i) entries[i] = {i, i * 4, 4};
+  // Nothing owns the module, so from here until it is destroyed nothing may throw.
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
   module_info.codeSize = spirv.size_bytes();
@@ -87,8 +90,6 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
       !r) {
     return r.error();
   }
-  std::vector<VkSpecializationMapEntry> entries(constants.size());
-  for (uint32_t i = 0; i < constants.size(); ++i) entries[i] = {i, i * 4, 4};
   const VkSpecializationInfo specialization = {static_cast<uint32_t>(entries.size()), entries.data(),
                                                constants.size_bytes(), constants.data()};
   VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroup{};
@@ -116,7 +117,7 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
 }
 
 Kernel::~Kernel() {
-  if (device_ == nullptr) return;
+  if (device_ == nullptr || device_->forked()) return;
   const Table& calls = device_->calls();
   if (pipeline_ != VK_NULL_HANDLE) calls.DestroyPipeline(device_->handle(), pipeline_, nullptr);
   if (layout_ != VK_NULL_HANDLE) calls.DestroyPipelineLayout(device_->handle(), layout_, nullptr);
@@ -204,6 +205,7 @@ void BoundKernel::rebind(uint32_t binding, const Buffer& buffer) {
 }
 
 BoundKernel::~BoundKernel() {
+  if (device_ == nullptr || device_->forked()) return;
   if (pool_ != VK_NULL_HANDLE) device_->calls().DestroyDescriptorPool(device_->handle(), pool_, nullptr);
   for (VkBufferView view : views_) device_->calls().DestroyBufferView(device_->handle(), view, nullptr);
 }

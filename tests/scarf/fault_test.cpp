@@ -117,5 +117,36 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair(VK_ERROR_OUT_OF_HOST_MEMORY, DeviceOptions::Upload::transfer_queue)),
     fault_name);
 
+// The heads of rings are full when the next submission begins with settling them. If that gets lost, it must
+// not be taken for done.
+TEST(SettlingFault, LeavesTheHeadsToTheNextSubmission) {
+  constexpr size_t kMostLaps = 65'535;
+  const Geometry one_slot = {{1, 1, 0, 1, 0, 0}, {1, 1, 0, 1, 0, 0}, 1};
+  std::vector<Event> events(kMostLaps + 10);
+  for (size_t i = 0; i < events.size(); ++i) events[i].t = static_cast<int64_t>(i);
+  auto reference = *make_reference_scarf(one_slot);
+  ASSERT_TRUE(reference->push(events));
+  Faults::arm(0, VK_SUCCESS);
+  const auto context = test::value_of(test::faulty_context(DeviceOptions::Upload::automatic));
+  GpuOptions gpu;
+  gpu.submission_events = 1 << 17;
+  gpu.placing = GpuOptions::Placing::appended;
+  int calls = 1;
+  for (int n = 1; n <= calls; ++n) {
+    SCOPED_TRACE(n);
+    Faults::arm(0, VK_SUCCESS);
+    auto scarf = test::value_of(make_gpu_scarf(context, one_slot, kDefaultAccumulation, gpu));
+    ASSERT_TRUE(scarf->push(std::span(events).first(kMostLaps)) && scarf->finish());
+    ASSERT_TRUE(scarf->push(std::span(events).subspan(kMostLaps)));
+    Faults::arm(n, VK_ERROR_OUT_OF_HOST_MEMORY);
+    (void)scarf->flush();
+    calls = Faults::calls;
+    Faults::arm(0, VK_SUCCESS);
+    ASSERT_TRUE(scarf->flush());
+    ASSERT_NO_FATAL_FAILURE(test::expect_same_state(*scarf, *reference));
+  }
+  EXPECT_GT(calls, 3);
+}
+
 }  // namespace
 }  // namespace scarf

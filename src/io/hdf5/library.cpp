@@ -8,7 +8,12 @@ namespace {
 
 // Keeps the innermost description: the walk goes from the call outwards.
 herr_t keep_description(unsigned, const H5E_error2_t* entry, void* kept) {
-  if (entry->desc != nullptr) *static_cast<std::string*>(kept) = entry->desc;
+  // No exception may pass through libhdf5; without memory there is no description.
+  try {
+    if (entry->desc != nullptr) *static_cast<std::string*>(kept) = entry->desc;
+  } catch (const std::bad_alloc&) {
+    return -1;
+  }
   return 0;
 }
 

@@ -1,0 +1,125 @@
+#include "io/memory_guard.h"
+
+#include <utility>
+
+namespace scarf {
+namespace {
+
+// Runs calls until one does not come back.
+class Guard {
+ public:
+  /// `sentence`: what is to be done after one.
+  explicit Guard(const char* sentence) : sentence_(sentence) {}
+
+  template <class Call>
+  auto run(Call call) {
+    using Answer = decltype(call());
+    return as_result([&]() -> Answer {
+      if (broken_) return Error{ErrorCode::out_of_memory, sentence_};
+      broken_ = true;  // unless it comes back
+      Answer answer = call();
+      broken_ = false;
+      return answer;
+    });
+  }
+
+ private:
+  const char* sentence_;
+  bool broken_ = false;
+};
+
+constexpr const char* kReadAgain =
+    "the reader ran out of memory, and where it stopped is not known; open the recording again";
+constexpr const char* kWriteAgain =
+    "the writer ran out of memory, and what it had written is not known; create the recording again";
+
+class GuardedEvents final : public EventSource {
+ public:
+  explicit GuardedEvents(std::unique_ptr<EventSource> source) : source_(std::move(source)) {}
+
+  std::string_view format() const override { return source_->format(); }
+  std::optional<SensorSize> sensor() const override { return source_->sensor(); }
+  Result<size_t> read(std::span<Event> out) override {
+    return guard_.run([&] { return source_->read(out); });
+  }
+  const ReadReport& report() const override { return source_->report(); }
+  uint64_t bytes_read() const override { return source_->bytes_read(); }
+  uint64_t bytes_total() const override { return source_->bytes_total(); }
+
+ private:
+  std::unique_ptr<EventSource> source_;
+  Guard guard_{kReadAgain};
+};
+
+class GuardedFrames final : public FrameSource {
+ public:
+  explicit GuardedFrames(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+  Result<std::optional<GreyFrame>> read() override {
+    return guard_.run([&] { return source_->read(); });
+  }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  Guard guard_{kReadAgain};
+};
+
+class GuardedTriggers final : public TriggerSource {
+ public:
+  explicit GuardedTriggers(std::unique_ptr<TriggerSource> source) : source_(std::move(source)) {}
+  Result<size_t> read(std::span<Trigger> out) override {
+    return guard_.run([&] { return source_->read(out); });
+  }
+
+ private:
+  std::unique_ptr<TriggerSource> source_;
+  Guard guard_{kReadAgain};
+};
+
+class GuardedWords final : public WordSource {
+ public:
+  explicit GuardedWords(std::unique_ptr<WordSource> source) : source_(std::move(source)) {}
+  std::string_view format() const override { return source_->format(); }
+  std::optional<SensorSize> sensor() const override { return source_->sensor(); }
+  Result<size_t> read(std::span<uint8_t> out) override {
+    return guard_.run([&] { return source_->read(out); });
+  }
+
+ private:
+  std::unique_ptr<WordSource> source_;
+  Guard guard_{kReadAgain};
+};
+
+class GuardedSink final : public EventSink {
+ public:
+  explicit GuardedSink(std::unique_ptr<EventSink> sink) : sink_(std::move(sink)) {}
+  Result<void> write(std::span<const Event> events) override {
+    return guard_.run([&] { return sink_->write(events); });
+  }
+  Result<void> finish() override {
+    return guard_.run([&] { return sink_->finish(); });
+  }
+
+ private:
+  std::unique_ptr<EventSink> sink_;
+  Guard guard_{kWriteAgain};
+};
+
+}  // namespace
+
+std::unique_ptr<EventSource> guarded(std::unique_ptr<EventSource> source) {
+  return std::make_unique<GuardedEvents>(std::move(source));
+}
+std::unique_ptr<FrameSource> guarded(std::unique_ptr<FrameSource> source) {
+  return std::make_unique<GuardedFrames>(std::move(source));
+}
+std::unique_ptr<TriggerSource> guarded(std::unique_ptr<TriggerSource> source) {
+  return std::make_unique<GuardedTriggers>(std::move(source));
+}
+std::unique_ptr<WordSource> guarded(std::unique_ptr<WordSource> source) {
+  return std::make_unique<GuardedWords>(std::move(source));
+}
+std::unique_ptr<EventSink> guarded(std::unique_ptr<EventSink> sink) {
+  return std::make_unique<GuardedSink>(std::move(sink));
+}
+
+}  // namespace scarf
