@@ -10,6 +10,7 @@
 #include "io/format.h"
 #include "io/look_ahead.h"
 #include "io/prophesee_header.h"
+#include "io/watched_source.h"
 
 namespace scarf {
 namespace {
@@ -128,13 +129,19 @@ Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options
 }
 
 template <class Source>
-Result<std::unique_ptr<Source>> open_path(const std::string& path, const ReadOptions& options) {
+Result<std::unique_ptr<Source>> open_path(const std::string& path, const ReadOptions& options,
+                                          ByteReader::Seen seen = {}) {
   std::error_code ignored;
   const bool folder = path != "-" && std::filesystem::is_directory(path, ignored);
-  auto bytes = folder ? ByteReader::over({}) : ByteReader::open(path);
+  const auto files = std::make_shared<InputFiles>();
+  auto bytes = folder ? ByteReader::over({}) : files->open(path);
   if (!bytes) return named(display_name(path), bytes.error());
+  if (seen) bytes->observe(std::move(seen));
   const bool seekable = folder || bytes->total() > 0;
-  return open_any<Source>({*std::move(bytes), seekable ? path : "", display_name(path), folder, {}}, options);
+  auto source = open_any<Source>(
+      {*std::move(bytes), seekable ? path : "", display_name(path), folder, {}, files}, options);
+  if (!source) return reason(*files, source.error());
+  return watched(*std::move(source), files);
 }
 
 }  // namespace
@@ -146,6 +153,11 @@ Result<std::unique_ptr<EventSource>> open_input(ByteReader input, const std::str
 
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options) {
   return open_path<EventSource>(path, options);
+}
+
+Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options,
+                                                 ByteReader::Seen seen) {
+  return open_path<EventSource>(path, options, std::move(seen));
 }
 
 Result<std::unique_ptr<FrameSource>> open_frames(const std::string& path, const ReadOptions& options) {

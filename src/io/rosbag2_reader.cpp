@@ -18,6 +18,8 @@ constexpr std::string_view kName = "rosbag2";
 constexpr std::string_view kTitle = "a ROS 2 bag (sqlite3)";
 constexpr std::string_view kDatabase = "SQLite format 3\0"sv;
 constexpr std::string_view kMetadata = "metadata.yaml";
+// Added to a database's name: the file where SQLite keeps what is not in the database yet.
+constexpr std::string_view kLog = "-wal";
 
 Result<std::unique_ptr<RosBag>> open_part(const std::string& path) {
   auto bytes = ByteReader::open(path);
@@ -108,9 +110,17 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
 
 Result<std::unique_ptr<RosBag>> open_bag(const Input& input) {
   if (const auto path = require_path(input, kTitle); !path) return path.error();
-  if (!input.folder) return open_rosbag2_database(input.path);
+  if (!input.folder) {
+    input.files->add(text(input.path, kLog));
+    return open_rosbag2_database(input.path);
+  }
+  input.files->add((fs::path(input.path) / kMetadata).string());
   auto files = files_of(input.path);
   if (!files) return files.error();
+  for (const std::string& file : *files) {
+    input.files->add(file);
+    input.files->add(text(file, kLog));
+  }
   return std::unique_ptr<RosBag>(std::make_unique<Rosbag2Folder>(*std::move(files)));
 }
 
