@@ -13,6 +13,7 @@ namespace scarf::tools {
 
 Result<void> write_report(const BenchOptions& options, const DeviceInfo* device, nlohmann::json report) {
   if (options.json.empty()) return {};
+  report["schema"] = kBenchSchema;
   report["commit"] = SCARF_COMMIT;
   if (device != nullptr) {
     report["device"] = device->name;

@@ -34,6 +34,9 @@ struct BenchOptions {
   DeviceOptions device;
 };
 
+/// Of what all benchmarks write (docs/JSON.md).
+inline constexpr int kBenchSchema = 1;
+
 /// Writes a benchmark's JSON to the file of --json, if there is one, with the commit and, unless it is null,
 /// the device.
 Result<void> write_report(const BenchOptions& options, const DeviceInfo* device, nlohmann::json report);

@@ -202,8 +202,11 @@ Result<int> bench_paper(const BenchOptions& options) {
       measure_on(*std::move(input));
     }
   }
-  const nlohmann::json head = {
-      {"device", device}, {"driver", driver}, {"commit", SCARF_COMMIT}, {"events", source}};
+  const nlohmann::json head = {{"schema", kBenchSchema},
+                               {"device", device},
+                               {"driver", driver},
+                               {"commit", SCARF_COMMIT},
+                               {"events", source}};
   if (auto r = write_files(options, rows, head, device); !r) return r.error();
   return 0;
 }

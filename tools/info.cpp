@@ -40,8 +40,10 @@ void print_table(const std::vector<Fact>& facts) {
   }
 }
 
+constexpr int kSchema = 1;  // docs/JSON.md
+
 void print_json(const std::vector<Fact>& facts) {
-  nlohmann::ordered_json all;
+  nlohmann::ordered_json all = {{"schema", kSchema}};
   for (const Fact& fact : facts) all[fact.key] = fact.value;
   // Names of files and packets may hold any bytes.
   std::cout << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";

@@ -28,7 +28,13 @@ Result<uint64_t> play(EventSource& source, PlayOptions options, const Audience& 
     if (buffer.size() < wanted) buffer.resize(wanted);
     const auto filled = read_fully(source, std::span(buffer).first(wanted));
     if (!filled) return filled.error();
-    if (*filled == 0) break;
+    if (*filled == 0) {
+      // The source has said so itself, unless it was not asked.
+      if (wanted == 0) {
+        if (auto r = source.unchanged(); !r) return r.error();
+      }
+      break;
+    }
 
     std::span<const Event> rest = std::span(buffer).first(*filled);
     const auto hand_out = [&](size_t n) -> Result<void> {

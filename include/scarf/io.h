@@ -65,7 +65,11 @@ class EventSource {
   virtual std::optional<SensorSize> sensor() const = 0;
   /// Reads up to out.size() events (at least 1) in file order; 0 means the end of the stream, fewer do not: a
   /// pipe's events come as they are there. After out_of_memory nothing is read any more: open it again.
+  /// Errors: io; bad_input, also instead of the end if a file of the recording grew, shrank, was written or
+  /// replaced since it was opened: what was read is then of no moment of it.
   virtual Result<size_t> read(std::span<Event> out) = 0;
+  /// For who stops before the end: that error, if it is due now.
+  virtual Result<void> unchanged() const { return {}; }
   virtual const ReadReport& report() const = 0;
   /// Bytes consumed so far and size of the file (0 if unknown, as for a pipe), for progress displays.
   virtual uint64_t bytes_read() const = 0;

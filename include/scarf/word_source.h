@@ -20,8 +20,11 @@ class WordSource {
   /// As EventSource says: "evt2" or "evt3".
   virtual std::string_view format() const = 0;
   virtual std::optional<SensorSize> sensor() const = 0;
-  /// Reads up to out.size() bytes (at least 1); 0 means the end. Words may be cut.
+  /// Reads up to out.size() bytes (at least 1); 0 means the end. Words may be cut. Errors: io; bad_input
+  /// instead of the end, if the file has changed since it was opened.
   virtual Result<size_t> read(std::span<uint8_t> out) = 0;
+  /// For who stops before the end: that error, if it is due now.
+  virtual Result<void> unchanged() const { return {}; }
 };
 
 /// Opens a recording as open_events does, which says what it is. Errors: as open_events; bad_input for a

@@ -71,6 +71,14 @@ ByteReader ByteReader::over(std::span<const uint8_t> bytes) {
   return ByteReader(read_some, bytes.size());
 }
 
+void ByteReader::observe(Seen seen) {
+  read_some_ = [inner = std::move(read_some_), seen = std::move(seen)](std::span<uint8_t> out) {
+    const auto count = inner(out);
+    if (count && *count > 0) seen(out.first(*count));
+    return count;
+  };
+}
+
 Result<void> ByteReader::refill() {
   if (ended_) return {};
   auto larger = std::unique_ptr<uint8_t[]>();

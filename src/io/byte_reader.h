@@ -28,6 +28,10 @@ class ByteReader {
   /// Memory that outlives the reader.
   static ByteReader over(std::span<const uint8_t> bytes);
 
+  using Seen = std::function<void(std::span<const uint8_t>)>;
+  /// `seen` gets all bytes that are read from now on, in order and each once.
+  void observe(Seen seen);
+
   /// The bytes read and not yet skipped.
   std::span<const uint8_t> available() const { return {buffer_.get() + begin_, end_ - begin_}; }
   /// Whether the input holds nothing behind available().

@@ -37,6 +37,7 @@ bool leads_out(std::string_view name) {
 Result<EcdFiles> EcdFiles::find(const Input& input) {
   EcdFiles files;
   files.events_ = kEvents;
+  files.watched_ = input.files;
   if (input.folder) {
     files.folder_ = input.path + "/";
     return files;
@@ -86,7 +87,7 @@ bool EcdFiles::has_images() const {
 Result<ByteReader> EcdFiles::open(std::string_view name) const {
   if (leads_out(name)) return bad(text("'", name, "' lies outside the recording"));
   if (!archive_) {
-    auto file = ByteReader::open(text(folder_, name));
+    auto file = watched_->open(text(folder_, name));
     if (!file) return Error{file.error().code, text(name, ": ", file.error().message)};
     return file;
   }

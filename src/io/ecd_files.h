@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,7 @@ class EcdFiles {
 
   const ZipArchive::Member* member(std::string_view name) const;
 
+  std::shared_ptr<InputFiles> watched_;
   std::string folder_;  // where they lie; of an archive: the beginning of its names
   std::optional<ZipArchive> archive_;
   std::string events_;

@@ -17,10 +17,10 @@ constexpr std::string_view kPlaces = "dataset_events_xy.npy";
 constexpr std::string_view kPolarities = "dataset_events_p.npy";
 
 // An array of `width` numbers per event, added to the others.
-Result<void> add(const std::string& folder, std::string_view file, std::vector<Column> contents,
+Result<void> add(const Input& folder, std::string_view file, std::vector<Column> contents,
                  EventArrays& events) {
   const auto named = [&](const Error& error) { return Error{error.code, text(file, ": ", error.message)}; };
-  auto bytes = ByteReader::open(text(folder, "/", file));
+  auto bytes = folder.files->open(text(folder.path, "/", file));
   if (!bytes) return named(bytes.error());
   const auto header = read_numpy_header(*bytes);
   if (!header) return named(header.error());
@@ -50,9 +50,9 @@ Result<std::unique_ptr<EventSource>> open_evimo2(Input input, const ReadOptions&
   }
   EventArrays events;
   events.named = true;
-  if (auto r = add(input.path, kTimes, {Column::t}, events); !r) return r.error();
-  if (auto r = add(input.path, kPlaces, {Column::x, Column::y}, events); !r) return r.error();
-  if (auto r = add(input.path, kPolarities, {Column::p}, events); !r) return r.error();
+  if (auto r = add(input, kTimes, {Column::t}, events); !r) return r.error();
+  if (auto r = add(input, kPlaces, {Column::x, Column::y}, events); !r) return r.error();
+  if (auto r = add(input, kPolarities, {Column::p}, events); !r) return r.error();
   return open_arrays(kName, input.name, std::move(events), options);
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "io/byte_reader.h"
+#include "io/input_files.h"
 #include "io/prophesee_header.h"
 #include "scarf/frames.h"
 #include "scarf/io.h"
@@ -24,6 +25,8 @@ struct Input {
   std::string name;  ///< what messages call it
   bool folder = false;
   std::optional<PropheseeHeader> header;
+  /// Where further files are opened, or named if a library opens them: those of a folder, and companions.
+  std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();
 };
 
 /// What recognition sees of a recording.

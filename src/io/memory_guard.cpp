@@ -42,6 +42,7 @@ class GuardedEvents final : public EventSource {
   Result<size_t> read(std::span<Event> out) override {
     return guard_.run([&] { return source_->read(out); });
   }
+  Result<void> unchanged() const override { return source_->unchanged(); }
   const ReadReport& report() const override { return source_->report(); }
   uint64_t bytes_read() const override { return source_->bytes_read(); }
   uint64_t bytes_total() const override { return source_->bytes_total(); }
@@ -83,6 +84,7 @@ class GuardedWords final : public WordSource {
   Result<size_t> read(std::span<uint8_t> out) override {
     return guard_.run([&] { return source_->read(out); });
   }
+  Result<void> unchanged() const override { return source_->unchanged(); }
 
  private:
   std::unique_ptr<WordSource> source_;

@@ -11,6 +11,7 @@
 #include "io/look_ahead.h"
 #include "io/memory_guard.h"
 #include "io/prophesee_header.h"
+#include "io/watched_source.h"
 
 namespace scarf {
 namespace {
@@ -121,7 +122,7 @@ Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options
   const auto format = options.format.empty() ? recognise(input) : find_format(options.format);
   if (!format) return named(name, format.error());
   auto source = open_as<Source>(**format, std::move(input), options);
-  if (source) return guarded(*std::move(source));
+  if (source) return source;
   Error error = named(name, source.error());
   // Who names the format says that this is a recording.
   if (!options.format.empty() && error.code == ErrorCode::unrecognised) error.code = ErrorCode::bad_input;
@@ -129,24 +130,39 @@ Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options
 }
 
 template <class Source>
-Result<std::unique_ptr<Source>> open_path(const std::string& path, const ReadOptions& options) {
+Result<std::unique_ptr<Source>> open_path(const std::string& path, const ReadOptions& options,
+                                          ByteReader::Seen seen = {}) {
   std::error_code ignored;
   const bool folder = path != "-" && std::filesystem::is_directory(path, ignored);
-  auto bytes = folder ? ByteReader::over({}) : ByteReader::open(path);
+  const auto files = std::make_shared<InputFiles>();
+  auto bytes = folder ? ByteReader::over({}) : files->open(path);
   if (!bytes) return named(display_name(path), bytes.error());
+  if (seen) bytes->observe(std::move(seen));
   const bool seekable = folder || bytes->total() > 0;
-  return open_any<Source>({*std::move(bytes), seekable ? path : "", display_name(path), folder, {}}, options);
+  auto source = open_any<Source>(
+      {*std::move(bytes), seekable ? path : "", display_name(path), folder, {}, files}, options);
+  if (!source) return reason(*files, source.error());
+  return guarded(watched(*std::move(source), files));
 }
 
 }  // namespace
 
 Result<std::unique_ptr<EventSource>> open_input(ByteReader input, const std::string& name,
                                                 const ReadOptions& options) {
-  return as_result([&] { return open_any<EventSource>({std::move(input), "", name, false, {}}, options); });
+  return as_result([&]() -> Result<std::unique_ptr<EventSource>> {
+    auto source = open_any<EventSource>({std::move(input), "", name, false, {}}, options);
+    if (!source) return source;
+    return guarded(*std::move(source));
+  });
 }
 
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options) {
   return as_result([&] { return open_path<EventSource>(path, options); });
+}
+
+Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options,
+                                                 ByteReader::Seen seen) {
+  return as_result([&] { return open_path<EventSource>(path, options, std::move(seen)); });
 }
 
 Result<std::unique_ptr<FrameSource>> open_frames(const std::string& path, const ReadOptions& options) {

@@ -26,6 +26,8 @@ constexpr std::string_view kName = "rosbag2";
 constexpr std::string_view kTitle = "a ROS 2 bag (sqlite3)";
 constexpr std::string_view kDatabase = "SQLite format 3\0"sv;
 constexpr std::string_view kMetadata = "metadata.yaml";
+// Added to a database's name: the file where SQLite keeps what is not in the database yet.
+constexpr std::string_view kLog = "-wal";
 
 // A file that lives as long as this, and whose name nobody can foresee.
 class TemporaryFile {
@@ -198,9 +200,17 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
 
 Result<std::unique_ptr<RosBag>> open_bag(Input& input) {
   if (const auto path = require_path(input, kTitle); !path) return path.error();
-  if (!input.folder) return open_bytes(std::move(input.bytes), input.path);
+  if (!input.folder) {
+    input.files->add(text(input.path, kLog));
+    return open_bytes(std::move(input.bytes), input.path);
+  }
+  input.files->add((fs::path(input.path) / kMetadata).string());
   auto files = files_of(input.path);
   if (!files) return files.error();
+  for (const std::string& file : *files) {
+    input.files->add(file);
+    input.files->add(text(file, kLog));
+  }
   return std::unique_ptr<RosBag>(std::make_unique<Rosbag2Folder>(*std::move(files)));
 }
 

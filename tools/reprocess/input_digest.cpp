@@ -30,20 +30,13 @@ Result<void> add_file(Digest& digest, const fs::path& path) {
   return {};
 }
 
-Result<void> add_folder(Digest& digest, const fs::path& folder) {
-  std::error_code error;
-  std::vector<std::string> names;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    std::error_code ignored;
-    if (entry->is_regular_file(ignored))
-      names.push_back(entry->path().lexically_relative(folder).generic_string());
-  }
-  if (error) return Error{ErrorCode::io, text("cannot list ", folder.string(), ": ", error.message())};
-  std::sort(names.begin(), names.end());
-  for (const std::string& name : names) {
+Result<void> add_folder(Digest& digest, const fs::path& folder, const std::string& out) {
+  const auto names = files_below(folder.string(), out);
+  if (!names) return names.error();
+  for (const std::string& name : *names) {
     std::vector<uint8_t> head(name.begin(), name.end());
     head.push_back(0);
+    std::error_code error;
     const uint64_t size = fs::file_size(folder / name, error);
     if (error)
       return Error{ErrorCode::io, text("cannot read ", (folder / name).string(), ": ", error.message())};
@@ -56,10 +49,27 @@ Result<void> add_folder(Digest& digest, const fs::path& folder) {
 
 }  // namespace
 
-Result<std::string> input_digest(const std::string& path) {
+Result<std::vector<std::string>> files_below(const std::string& folder, const std::string& out) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_directory(ignored) && fs::equivalent(entry->path(), out, ignored)) {
+      entry.disable_recursion_pending();
+    }
+    if (entry->is_regular_file(ignored))
+      names.push_back(entry->path().lexically_relative(folder).generic_string());
+  }
+  if (error) return Error{ErrorCode::io, text("cannot list ", folder, ": ", error.message())};
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Result<std::string> input_digest(const std::string& path, const std::string& out) {
   Digest digest;
   std::error_code ignored;
-  const auto added = fs::is_directory(path, ignored) ? add_folder(digest, path) : add_file(digest, path);
+  const auto added = fs::is_directory(path, ignored) ? add_folder(digest, path, out) : add_file(digest, path);
   if (!added) return added.error();
   return digest.hex();
 }

@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kSchema = 1;  // docs/JSON.md
+
 // One value as itself, several as a list.
 Json json_of(const Settings& settings) {
   Json json = Json::object();
@@ -45,6 +47,23 @@ Json json_of(const ReadReport& r) {
   return json;
 }
 
+Json json_of(const std::optional<FileState>& state) {
+  if (!state) return nullptr;
+  return {{"inode", state->inode}, {"modified_ns", state->modified_ns}, {"changed_ns", state->changed_ns}};
+}
+
+// What was noted of an input of so many bytes; records of before schema 1 note nothing.
+std::optional<FileState> state_of(const Json& record, uint64_t bytes) {
+  const auto found = record.find("input_state");
+  if (found == record.end() || found->is_null()) return std::nullopt;
+  FileState state;
+  state.inode = found->at("inode");
+  state.bytes = bytes;
+  state.modified_ns = found->at("modified_ns");
+  state.changed_ns = found->at("changed_ns");
+  return state;
+}
+
 }  // namespace
 
 std::string record_text(const Record& record, const Job& job, const Computed& computed,
@@ -56,9 +75,12 @@ std::string record_text(const Record& record, const Job& job, const Computed& co
     counts["filters"].push_back({{"passed", f.passed}, {"rejected", f.rejected}});
   }
   const Json json = {
+      {"schema", kSchema},
       {"input", job.relative},
-      {"input_sha256", record.input_sha256},
-      {"input_bytes", record.input_bytes},
+      {"input_sha256", record.input.sha256},
+      {"input_bytes", record.input.bytes},
+      {"input_state", json_of(record.input.state)},
+      {"times_sha256", record.times_sha256.empty() ? Json() : Json(record.times_sha256)},
       {"format", computed.format},
       {"sensor", text(computed.sensor.width, "x", computed.sensor.height)},
       {"recipe", json_of(record.settings)},
@@ -82,8 +104,12 @@ Result<Record> read_record(const std::string& path) {
   try {
     const Json json = Json::parse(content);
     Record record;
-    record.input_sha256 = json.at("input_sha256");
-    record.input_bytes = json.at("input_bytes");
+    record.input.sha256 = json.at("input_sha256");
+    record.input.bytes = json.at("input_bytes");
+    record.input.state = state_of(json, record.input.bytes);
+    if (const auto times = json.find("times_sha256"); times != json.end() && !times->is_null()) {
+      record.times_sha256 = *times;
+    }
     record.settings = settings_of(json.at("recipe"));
     record.digests = {json.at("state"), json.at("image"), json.at("events")};
     record.outputs = json.at("outputs").get<std::vector<std::string>>();

@@ -1,6 +1,6 @@
 // The record of a finished recording: a JSON file beside its results.
 //
-// It depends only on the input, the recipe, the program and the device, but for "timings".
+// It depends only on the input, the recipe, the program and the device, but for "timings" and "input_state".
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "tools/reprocess/compute.h"
+#include "tools/reprocess/input_state.h"
 #include "tools/reprocess/job.h"
 
 namespace scarf::tools::reprocess {
 
 /// What a record needs to be compared with later.
 struct Record {
-  std::string input_sha256;
-  uint64_t input_bytes = 0;
+  InputIdentity input;
+  std::string times_sha256;  ///< of the file of the frames' times; empty: there is none
   Settings settings;
   Digests digests;
   std::vector<std::string> outputs;  ///< what was added to the name of the recording

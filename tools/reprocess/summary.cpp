@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kSchema = 1;  // docs/JSON.md
+
 constexpr std::array kColumns = {Status::done, Status::kept, Status::failed, Status::skipped, Status::left};
 
 std::vector<Outcome> sorted(std::vector<Outcome> outcomes) {
@@ -109,7 +111,8 @@ std::string summary_json(const Summary& s) {
   for (const Outcome& o : s.outcomes) {
     if (o.status == Status::done) timings[o.relative] = o.seconds;
   }
-  Json json = {{"input", s.input},
+  Json json = {{"schema", kSchema},
+               {"input", s.input},
                {"version", version()},
                {"device", s.device},
                {"shard", {{"index", s.shard.index}, {"count", s.shard.count}}},

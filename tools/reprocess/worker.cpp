@@ -4,7 +4,6 @@
 #include <ctime>
 #include <exception>
 #include <filesystem>
-#include <future>
 #include <iomanip>
 #include <new>
 #include <sstream>
@@ -12,10 +11,12 @@
 #include <vector>
 
 #include "core/text.h"
+#include "io/open.h"
 #include "scarf/encoding.h"
 #include "tools/event_list_writer.h"
 #include "tools/pictures.h"
 #include "tools/reprocess/input_digest.h"
+#include "tools/reprocess/input_state.h"
 #include "tools/reprocess/record.h"
 #include "tools/reprocess/result_place.h"
 #include "tools/write_behind.h"
@@ -157,46 +158,62 @@ Settings without_limit(Settings settings) {
   return settings;
 }
 
+// The digest of the file of the frames' times; empty if there is none, or no regular one: who needs it
+// will say so.
+std::string times_digest(const Job& job, const Options& options) {
+  if (options.frames.times_file.empty()) return {};
+  const std::string file = side_file(options.frames.times_file, job.path);
+  if (!file_state(file)) return {};
+  const auto digest = input_digest(file, "");
+  return digest ? *digest : std::string();
+}
+
 // Whether an earlier run has finished the job: the record is there with the same recipe, so are the outputs
-// that it names, and the input is the same. That is believed of an input of the same size which is older than
-// the record; another one is read.
-std::optional<Record> finished(const Job& job, const std::string& out) {
-  const std::string path = record_path(out, job);
-  const auto record = read_record(path);
-  if (!record || record->input_bytes != job.bytes) return std::nullopt;
+// that it names, and the inputs are the same.
+std::optional<Record> finished(const Job& job, const Options& options, const std::string& out,
+                               const InputState& input) {
+  const auto record = read_record(record_path(out, job));
+  if (!record || record->times_sha256 != times_digest(job, options)) return std::nullopt;
   if (without_limit(record->settings) != without_limit(job.settings)) return std::nullopt;
   std::error_code error;
   for (const std::string& suffix : record->outputs) {
     if (!fs::exists(fs::path(out) / (job.relative + suffix), error)) return std::nullopt;
   }
-  const bool folder = fs::is_directory(job.path, error);
-  const auto changed = fs::last_write_time(job.path, error);
-  if (error) return std::nullopt;
-  // The time of a folder does not tell of changes in its files.
-  if (!folder && changed < fs::last_write_time(path, error) && !error) return *record;
-  const auto digest = input_digest(job.path);
-  return digest && *digest == record->input_sha256 ? std::optional(*record) : std::nullopt;
+  return is_same_input(job.path, out, input, record->input) ? std::optional(*record) : std::nullopt;
+}
+
+// As open_recording, with the bytes that are read.
+Result<OpenRecording> open_seen(const StreamOptions& options, BytesRead& read) {
+  auto source = open_events(options.file, options.read, [&](std::span<const uint8_t> b) { read.add(b); });
+  if (!source) return source.error();
+  const auto sensor = require_sensor(**source, options.file);
+  if (!sensor) return sensor.error();
+  return OpenRecording{*std::move(source), *sensor};
 }
 
 Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter) {
   const auto start = Clock::now();
   const std::string started = utc_now();
+  const auto options = options_of(job);
+  if (!options) return options.error();
+  // It must stay as it is from now until all of it is read and its digest made.
+  const auto input = input_state(job.path, workplace.out);
+  if (!input) return input.error();
   if (workplace.resume) {
-    if (const auto record = finished(job, workplace.out)) {
+    if (const auto record = finished(job, **options, workplace.out, *input)) {
       Outcome kept = outcome_of(job, Status::kept);
       kept.events = record->events;
       kept.frames = record->frames;
       return kept;
     }
   }
-  const auto options = options_of(job);
-  if (!options) return options.error();
   if ((*options)->skip) {
     Outcome skipped = outcome_of(job, Status::skipped);
     skipped.message = "the recipe leaves it out";
     return skipped;
   }
-  auto recording = open_recording((*options)->stream);
+  BytesRead read;
+  auto recording = open_seen((*options)->stream, read);
   if (!recording) {
     if (recording.error().code != ErrorCode::unrecognised || job.listed) return recording.error();
     Outcome skipped = outcome_of(job, Status::skipped);
@@ -205,18 +222,21 @@ Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter
   }
   auto place = ResultPlace::claim(workplace.out, job.relative);
   if (!place) return place.error();
-  std::future<Result<std::string>> digest =
-      std::async(std::launch::async, [&job] { return input_digest(job.path); });
+  const std::string times = times_digest(job, **options);
   const auto computed = compute(
       *std::move(recording), job.path, **options, workplace.machine,
       [&](const std::vector<Shown>& shown) { return make_products(**options, *place, shown); }, meter);
-  const auto input_sha256 = digest.get();
   if (!computed) return computed.error();
-  if (!input_sha256) return input_sha256.error();
+  if (times_digest(job, **options) != times) {
+    return Error{ErrorCode::bad_input, text(side_file((*options)->frames.times_file, job.path),
+                                            " changed while the recording was read; process it again")};
+  }
+  auto identity = identify(job.path, workplace.out, *input, read);
+  if (!identity) return identity.error();
   if (auto r = write_final_pictures(**options, *place, *computed); !r) return r.error();
 
   const std::vector<std::string> outputs = suffixes_of(job.settings);
-  const Record record{*input_sha256,           job.bytes,       job.settings, computed->digests, outputs,
+  const Record record{*std::move(identity),    times,           job.settings, computed->digests, outputs,
                       computed->report.events, computed->frames};
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const std::string content =
