@@ -247,16 +247,15 @@ Result<std::unique_ptr<TriggerSource>> open_triggers_of_rosbag2(Input input, con
 
 }  // namespace
 
-const Format kRosbag2Format = {
-    .name = kName,
-    .title = "ROS 2 bag (sqlite3), or its folder; compressed by file or message, too",
-    .options = kTakesStream,
+const Format kRosbag2Format = {.name = kName,
+                               .title = "ROS 2 bag (sqlite3), or its folder, compressed or not",
+                               .options = kTakesStream,
+                               .packed = true,
 #ifndef SCARF_HAS_SQLITE
-    .missing = "SQLite (Debian: libsqlite3-dev)",
+                               .missing = "SQLite (Debian: libsqlite3-dev)",
 #endif
-    .packed = true,
-    .recognise = recognise_rosbag2,
-    .open = open_events_of_rosbag2,
-    .open_triggers = open_triggers_of_rosbag2};
+                               .recognise = recognise_rosbag2,
+                               .open = open_events_of_rosbag2,
+                               .open_triggers = open_triggers_of_rosbag2};
 
 }  // namespace scarf

@@ -67,6 +67,7 @@ class Fields {
 struct Contents {
   std::vector<EventPlaces> events;
   std::vector<std::string> datasets;  // of numbers
+  std::vector<std::string> columns;   // what --columns can name: these, and members of records
   size_t objects = 0;
 };
 
@@ -84,6 +85,7 @@ void look_at_records(const Handle& type, const std::string& path, Contents& cont
     char* const name = H5Tget_member_name(type.id(), static_cast<unsigned>(i));
     if (name == nullptr) continue;
     fields.add(name, {path, name, std::nullopt, 0});
+    contents.columns.push_back(text(path, "/", name));
     H5free_memory(name);
   }
   if (fields.complete()) contents.events.push_back(fields.places(path));
@@ -106,6 +108,7 @@ void look_at_group(const Handle& group, const std::string& path, int depth, Cont
       look_at_records(type, inside, contents);
     } else if (number_type(type.id())) {
       contents.datasets.push_back(inside);
+      contents.columns.push_back(inside);
       fields.add(name, {inside, "", std::nullopt, 0});
     }
   }
@@ -136,10 +139,10 @@ Result<FieldPlace> place_named(const Handle& file, const NamedColumn& named) {
       return FieldPlace{dataset, named.name.substr(slash + 1), std::nullopt, 0};
     }
   }
-  const auto datasets = contents_of(file).datasets;
+  const auto columns = contents_of(file).columns;
   return bad(
       text("has no dataset ", named.name, " of --columns; ",
-           datasets.empty() ? "it holds no datasets of numbers" : text("it holds ", list_of(datasets))));
+           columns.empty() ? "it holds no columns of numbers" : text("it holds ", list_of(columns))));
 }
 
 Result<EventPlaces> events_named(const Handle& file, const ReadOptions& options) {
@@ -189,13 +192,12 @@ Result<EventPlaces> find_events(const Handle& file, const ReadOptions& options) 
   const Contents contents = contents_of(file);
   if (!options.columns.empty()) return events_of_array(file, contents, options);
   if (contents.events.empty()) {
-    return Error{
-        ErrorCode::unrecognised,
-        text("this HDF5 file has no events: no columns whose names scarf knows; ",
-             contents.datasets.empty() ? "it holds no datasets of numbers"
-                                       : text("it holds ", list_of(contents.datasets),
-                                              ", which --columns "
-                                              "can name, such as t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol"))};
+    return Error{ErrorCode::unrecognised,
+                 text("this HDF5 file has no events: no columns whose names scarf knows; ",
+                      contents.columns.empty() ? "it holds no columns of numbers"
+                                               : text("it holds ", list_of(contents.columns),
+                                                      ", which --columns "
+                                                      "can name, such as t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol"))};
   }
   std::vector<StreamName> names;
   for (const EventPlaces& places : contents.events) {

@@ -151,7 +151,8 @@ TEST_F(Hdf5, ColumnsAreNamedWhereTheirNamesSayNothing) {
   };
   expect_same(named("t=/a/when,x=/a/where[0],y=/a/where[1],p=/b/sign/up"), "hdf5");
   expect_same(named("p=b/sign/down,t=a/when,y=a/where[1],x=a/where[0]"), "hdf5");
-  EXPECT_THAT(named("").error, AllOf(HasSubstr("no events"), HasSubstr("/a/when"), HasSubstr("--columns")));
+  EXPECT_THAT(named("").error, AllOf(HasSubstr("no events"), HasSubstr("/a/when"), HasSubstr("/b/sign/up"),
+                                     HasSubstr("--columns")));
   EXPECT_THAT(named("t=/a/wann,x=/a/where[0],y=/a/where[1],p=/b/sign/up").error,
               AllOf(HasSubstr("/a/wann"), HasSubstr("/a/when")));
   EXPECT_THAT(named("t=/a/when,x=/a/where,y=/a/where[1],p=/b/sign/up").error, HasSubstr("/a/where"));
