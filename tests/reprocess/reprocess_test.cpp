@@ -46,6 +46,8 @@ TEST_F(Reprocess, MirrorsTheTreeWithPicturesAndRecords) {
   EXPECT_EQ(sum.out.substr(0, 64), record["input_sha256"]);
   EXPECT_EQ(record["counts"]["events"], 3000);
   EXPECT_EQ(json_in(path("out/summary.json"))["totals"]["skipped"], 2);
+  EXPECT_EQ(record["schema"], 1);
+  EXPECT_EQ(json_in(path("out/summary.json"))["schema"], 1);
 }
 
 TEST_F(Reprocess, RecordsDependOnNeitherJobsNorTheDevice) {

@@ -304,6 +304,7 @@ TEST_F(BenchProgram, WritesTheTableAsCsvJsonAndPlot) {
   EXPECT_THAT(out_, HasSubstr("eros"));
   EXPECT_EQ(lines_of(content_of(path("o.csv"))).size(), 3u);
   const auto report = nlohmann::json::parse(content_of(path("o.json")));
+  EXPECT_EQ(report["schema"], 1);
   ASSERT_EQ(report["results"].size(), 2u);
   EXPECT_GT(report["results"][0]["ns_per_event"].get<double>(), 0);
   EXPECT_EQ(report["results"][0]["throughput"].size(), kQueryRates.size());
@@ -315,6 +316,7 @@ TEST_F(BenchProgram, ComparesManyStreamsWithOne) {
   ASSERT_EQ(run("--streams 2 --quick --json " + path("o.json")), 0) << err_;
   EXPECT_THAT(out_, HasSubstr("one stream of 20000 events per batch, and 2 streams of 10000"));
   const auto report = nlohmann::json::parse(content_of(path("o.json")));
+  EXPECT_EQ(report["schema"], 1);
   ASSERT_EQ(report["results"].size(), 6u);  // sensors and presets
   for (const auto& result : report["results"]) {
     EXPECT_EQ(result["streams"], 2);
