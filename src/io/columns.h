@@ -16,8 +16,19 @@ enum class Column : uint8_t { t, x, y, p, camera, skipped };
 /// Errors: illegal_parameter.
 Result<std::vector<Column>> columns_from(std::string_view letters);
 
-/// What a column of this name holds ("timestamp", "xs", "polarity", ...), in any case of letters; skipped if
-/// the name says nothing.
+/// What the name of a column, field or data set says.
+struct ColumnName {
+  Column column = Column::skipped;  ///< skipped: the name says nothing
+  /// Of a time with its unit in its name, the power of ten that turns it into microseconds: 0 for `time_us`,
+  /// `t [us]` or "Timestamp(us)".
+  std::optional<int> time_exponent;
+};
+
+/// The names that scarf knows, in text, NumPy and HDF5 alike: "timestamp", "xs", "Polarity", "event_t_ns", in
+/// any case of letters, perhaps in quotes, with a unit or with the prefix `event`.
+ColumnName column_name(std::string_view name);
+
+/// What a column of this name holds, without its unit.
 Column column_named(std::string_view name);
 
 /// Whether t, x, y and p are there, each once, and at most one camera.
