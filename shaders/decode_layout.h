@@ -56,6 +56,9 @@ struct DecodeSummary {
   uint base;
 };
 
+// Microseconds: a longer step forward is a jump. As kLongestStep of scarf/read_report.h.
+SCARF_CONSTANT kDecodeLongestStep = 10000000;
+
 // What a decoder remembers behind the first TIME_HIGH. All 0: before every other word.
 struct DecodeState {
   uint loops_low;   // wraps of the clock, 64 bits
@@ -82,8 +85,10 @@ struct DecodeFacts {
   uint unknown;     // words that the format does not define
   uint back_steps;  // events older than the event before them
   uint gaps;        // EVT3: steps of TIME_HIGH to other than the next value
-  uint unused;
+  uint jumps;       // steps forward of more than kDecodeLongestStep
   int64_t largest_step;
+  int64_t largest_jump;       // 0: none
+  int64_t largest_jump_from;  // the time in front of the first one that large
   int64_t first;    // times of any events, in order of arrival; -1: no event
   int64_t last;
   int64_t first_inside;  // the same of events inside; -1: none

@@ -11,8 +11,8 @@ namespace {
 using layout::DecodeFacts;
 using layout::DecodeState;
 
-constexpr DecodeFacts kNoEvents = {0, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1, std::numeric_limits<int64_t>::max(),
-                                   -1};
+constexpr DecodeFacts kNoEvents = {
+    0, 0, 0, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1, std::numeric_limits<int64_t>::max(), -1};
 
 // Walks one block of words from the state in front of it.
 class BlockWalk {
@@ -126,8 +126,19 @@ bool is_inside(const Event& e, const layout::DecodePush& push) {
   return e.x < push.width && e.y < push.height;
 }
 
+// A step forward from the time `from`.
+void note_jump(DecodeFacts& facts, int64_t step, int64_t from) {
+  if (step <= facts.largest_jump) return;
+  facts.largest_jump = step;
+  facts.largest_jump_from = from;
+}
+
 void note(DecodeFacts& facts, const Event& e, bool inside) {
   if (facts.first < 0) facts.first = e.t;
+  if (facts.last >= 0 && e.t - facts.last > layout::kDecodeLongestStep) {
+    ++facts.jumps;
+    note_jump(facts, e.t - facts.last, facts.last);
+  }
   if (e.t < facts.last) {
     ++facts.back_steps;
     facts.largest_step = std::max(facts.largest_step, facts.last - e.t);
@@ -189,6 +200,10 @@ void decode_total(std::span<const DecodeFacts> block_facts, std::span<uint32_t> 
     const bool falls = b.first >= 0 && b.first < all.last;
     all.back_steps += b.back_steps + (falls ? 1 : 0);
     all.largest_step = std::max({all.largest_step, b.largest_step, falls ? all.last - b.first : 0});
+    const bool leaps = b.first >= 0 && all.last >= 0 && b.first - all.last > layout::kDecodeLongestStep;
+    all.jumps += b.jumps + (leaps ? 1 : 0);
+    if (leaps) note_jump(all, b.first - all.last, all.last);
+    note_jump(all, b.largest_jump, b.largest_jump_from);
     if (all.first < 0) all.first = b.first;
     if (b.last >= 0) all.last = b.last;
     if (all.first_inside < 0) all.first_inside = b.first_inside;

@@ -298,7 +298,19 @@ Result<void> WordFeed::read_result(Slot& slot) {
   report_.gaps += facts.gaps;
   report_.back_steps += facts.back_steps;
   report_.largest_back_step = std::max(report_.largest_back_step, facts.largest_step);
+  static_assert(layout::kDecodeLongestStep == kLongestStep);
+  const auto note_jump = [this](int64_t step, int64_t from) {
+    if (step <= report_.largest_jump) return;
+    report_.largest_jump = step;
+    report_.largest_jump_from = from;
+  };
+  report_.jumps += facts.jumps;
   if (facts.first >= 0) {
+    if (last_time_ >= 0 && facts.first - last_time_ > kLongestStep) {
+      ++report_.jumps;
+      note_jump(facts.first - last_time_, last_time_);
+    }
+    note_jump(facts.largest_jump, facts.largest_jump_from);
     if (facts.first < last_time_) {
       ++report_.back_steps;
       report_.largest_back_step = std::max(report_.largest_back_step, last_time_ - facts.first);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/little_endian.h"
+#include "core/text.h"
 #include "io/aedat4.h"
 #include "io/block_source.h"
 #include "io/known_formats.h"
@@ -29,7 +30,7 @@ class Aedat4Reader final : public BlockSource {
   Result<bool> next(std::vector<Event>& block) override;
 
  private:
-  void decode(std::span<const uint8_t> records, std::vector<Event>& block);
+  void decode(uint64_t place, std::span<const uint8_t> records, std::vector<Event>& block);
 
   Packets packets_;
 };
@@ -50,22 +51,31 @@ Result<bool> Aedat4Reader::next(std::vector<Event>& block) {
   if (!records)
     tally_.note_damage(p.byte, "the packet's events lie outside it");
   else
-    decode(*records, block);
+    decode(p.byte, *records, block);
   return true;
 }
 
-void Aedat4Reader::decode(std::span<const uint8_t> records, std::vector<Event>& block) {
+void Aedat4Reader::decode(uint64_t place, std::span<const uint8_t> records, std::vector<Event>& block) {
   block.reserve(records.size() / kRecordBytes);
   for (size_t at = 0; at < records.size(); at += kRecordBytes) {
     const uint8_t* const record = records.data() + at;
     const auto t = load_little_endian<int64_t>(record);
     if (t <= -kMaxTime || t >= kMaxTime) [[unlikely]] {
       ++tally_.report.unknown_words;
+      if (tally_.strict()) {
+        tally_.fail({ErrorCode::bad_input,
+                     text("the packet at byte ", place,
+                          " has a time that scarf does not hold; leave out --strict to pass over it")});
+      }
+      continue;
+    }
+    if (record[12] > 1) [[unlikely]] {
+      tally_.leave_out_polarity("the packet at byte", place);
       continue;
     }
     // Coordinates have a sign in the file. As unsigned numbers negative ones are beyond every sensor.
-    block.push_back({t, load_little_endian<uint16_t>(record + 8), load_little_endian<uint16_t>(record + 10),
-                     static_cast<uint8_t>(record[12] != 0)});
+    block.push_back(
+        {t, load_little_endian<uint16_t>(record + 8), load_little_endian<uint16_t>(record + 10), record[12]});
   }
 }
 

@@ -9,6 +9,7 @@
 #include "core/little_endian.h"
 #include "core/text.h"
 #include "io/block_source.h"
+#include "io/column_look.h"
 #include "io/event_tally.h"
 #include "io/named_columns.h"
 #include "io/rounding.h"
@@ -141,7 +142,7 @@ class ArraySource final : public BlockSource {
   Result<bool> next(std::vector<Event>& block) override;
 
  private:
-  enum class Row { event, outside, unknown };
+  enum class Row { event, outside, unknown, undefined };
 
   uint64_t sum(uint64_t (ByteReader::*count)() const) const {
     uint64_t bytes = 0;
@@ -167,11 +168,14 @@ ArraySource::Row ArraySource::decode(size_t row, Event& event) const {
   const auto x = load_integer(columns_.x.type, at_row(arrays_, columns_.x, row));
   const auto y = load_integer(columns_.y.type, at_row(arrays_, columns_.y, row));
   const auto p = load_integer(columns_.p.type, at_row(arrays_, columns_.p, row));
-  if (!t || !x || !y || !p || *p < -1 || *p > 1) return Row::unknown;
+  if (!t || !x || !y) return Row::unknown;
+  // A number that is no whole one is undefined, too.
+  const auto polarity = p ? polarity_from(*p) : std::nullopt;
+  if (!polarity) return Row::undefined;
   const auto fits = [](int64_t v) { return v >= 0 && v <= std::numeric_limits<uint16_t>::max(); };
   event.t = *t;
   if (!fits(*x) || !fits(*y)) return Row::outside;
-  event = {*t, static_cast<uint16_t>(*x), static_cast<uint16_t>(*y), static_cast<uint8_t>(*p > 0)};
+  event = {*t, static_cast<uint16_t>(*x), static_cast<uint16_t>(*y), *polarity};
   return Row::event;
 }
 
@@ -243,6 +247,8 @@ Result<bool> ArraySource::next(std::vector<Event>& block) {
     }
     if (kind == Row::outside) {
       tally_.drop(event.t);
+    } else if (kind == Row::undefined) {
+      tally_.leave_out_polarity("row", read_);
     } else {
       ++tally_.report.unknown_words;
       if (tally_.strict()) {
@@ -256,47 +262,40 @@ Result<bool> ArraySource::next(std::vector<Event>& block) {
   return true;
 }
 
-// What the rows at the beginning say of one column.
-struct Look {
-  bool whole = true;    // numbers without a fraction
-  bool zero = true;     // all of them
-  bool rising = true;   // none is smaller than the one before it
-  bool moving = false;  // some differ
-};
-
-Look look_at(const std::vector<Array>& arrays, const ArrayColumn& column, size_t rows) {
-  Look look;
-  double previous = 0;
+// What the rows at the beginning say of one column, whose numbers lie `row_bytes` apart.
+ColumnLook look_at(const uint8_t* first, size_t row_bytes, const NumpyType& type, size_t rows) {
+  ColumnLook look;
   for (size_t row = 0; row < rows; ++row) {
-    const uint8_t* const at = at_row(arrays, column, row);
-    const double value = is_float(column.type)
-                             ? load_float(column.type, at)
-                             : static_cast<double>(load_integer(column.type, at).value_or(0));
-    look.whole &= value == std::floor(value);
-    look.zero &= value == 0;
-    look.rising &= row == 0 || value >= previous;
-    look.moving |= row > 0 && value != previous;
-    previous = value;
+    const uint8_t* const at = first + row * row_bytes;
+    look.add(is_float(type) ? load_float(type, at) : static_cast<double>(load_integer(type, at).value_or(0)));
   }
   return look;
 }
 
-// An order that nobody has named must suit the first rows.
-Result<void> check_order(const EventArrays& arrays, size_t rows) {
-  constexpr std::string_view kAsk = "; name the order of the columns with --columns, such as xytp";
-  const EventColumns columns(arrays.columns);
-  for (size_t row = 0; row < rows; ++row) {
-    const auto p = load_integer(columns.p.type, at_row(arrays.arrays, columns.p, row));
-    if (!p || *p < -1 || *p > 1) return bad(text("row ", row, " does not read as t, x, y, p", kAsk));
+// Of an array whose columns nobody has named.
+std::vector<ColumnLook> looks_of(std::span<const uint8_t> bytes, const NumpyHeader& header, size_t columns) {
+  const size_t row_bytes = columns * header.item_bytes;
+  const size_t rows = std::min(bytes.size() / row_bytes, kBlockRows);
+  std::vector<ColumnLook> looks;
+  for (size_t i = 0; i < columns; ++i) {
+    looks.push_back(look_at(bytes.data() + i * header.item_bytes, row_bytes, header.fields[0].type, rows));
   }
-  if (look_at(arrays.arrays, columns.t, rows).rising) return {};
-  for (const ArrayColumn& other : {columns.x, columns.y}) {
-    const Look look = look_at(arrays.arrays, other, rows);
-    if (look.rising && look.moving) {
-      return bad(text("not the first column but another one rises as times do", kAsk));
-    }
+  return looks;
+}
+
+// An array that is not what the columns say: of events in another order, or of something else.
+Error other_columns(const std::vector<ColumnLook>& looks, const std::string& what) {
+  const std::string order = likely_order(looks);
+  if (order.empty()) {
+    return {ErrorCode::unrecognised,
+            text(what,
+                 "; if it holds events, name the order of the columns with --columns, such as xytp, "
+                 "with _ for columns to skip")};
   }
-  return {};
+  return bad(text(what,
+                  "; name the order of the columns with --columns; the first rows would allow "
+                  "--columns ",
+                  order));
 }
 
 Result<int> unit_of_times(const EventArrays& arrays, size_t rows, const ReadOptions& options) {
@@ -310,8 +309,10 @@ Result<int> unit_of_times(const EventArrays& arrays, size_t rows, const ReadOpti
     return own->value_or(0);
   }
   if (!is_float(columns.t.type)) return 0;
-  const Look look = look_at(arrays.arrays, columns.t, rows);
-  if (look.whole && !look.zero) {
+  const Array& array = arrays.arrays[columns.t.array];
+  const ColumnLook look =
+      look_at(array.bytes.available().data() + columns.t.offset, array.row_bytes, columns.t.type, rows);
+  if (!look.has_fractions() && !look.is_zero()) {
     return bad(
         "the times are floating-point numbers without fractions, so that seconds and microseconds look "
         "alike; name the unit with --time-unit");
@@ -419,11 +420,19 @@ Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header
       return Error{ErrorCode::unrecognised,
                    "the array has neither named fields nor a row of four numbers or more per event"};
     }
-    if (found != columns->size()) {
-      return bad(text("the array has ", found, " columns, not ", columns->size(),
-                      "; name them with --columns, such as txyp_, with _ for columns to skip"));
-    }
     if (auto r = require_row_order(header); !r) return r.error();
+    // The first rows decide, where nobody has named the columns.
+    const size_t bytes_wanted = std::min(kBlockRows * found * header.item_bytes, ByteReader::kCapacity);
+    const auto filled = bytes.fill(bytes_wanted);
+    if (!filled && filled.error().code != ErrorCode::bad_input) return filled.error();
+    const auto looks = looks_of(bytes.available(), header, found);
+    if (found != columns->size()) {
+      return other_columns(looks, text("the array has ", found, " columns, not ", columns->size()));
+    }
+    const bool any = bytes.available().size() >= found * header.item_bytes;
+    if (options.columns.empty() && any && !(allows(looks, *columns) && has_times(looks, *columns))) {
+      return other_columns(looks, "the first rows do not read as t, x, y, p");
+    }
     for (size_t i = 0; i < found; ++i) {
       if ((*columns)[i] == Column::skipped) continue;
       events.columns.push_back({(*columns)[i], 0, i * header.item_bytes, header.fields[0].type});
@@ -534,9 +543,6 @@ Result<std::unique_ptr<EventSource>> open_arrays(std::string_view format, const 
     const auto filled = array.bytes.fill(bytes);
     if (!filled && filled.error().code != ErrorCode::bad_input) return filled.error();
     rows = std::min(rows, array.bytes.available().size() / array.row_bytes);
-  }
-  if (!arrays.named && options.columns.empty()) {
-    if (auto r = check_order(arrays, rows); !r) return r.error();
   }
   const auto exponent = unit_of_times(arrays, rows, options);
   if (!exponent) return exponent.error();

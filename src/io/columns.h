@@ -12,6 +12,13 @@ namespace scarf {
 
 enum class Column : uint8_t { t, x, y, p, camera, skipped };
 
+/// What a number in a column of polarities means: 1 is brighter, 0 and -1 are darker.
+/// nullopt: undefined.
+constexpr std::optional<uint8_t> polarity_from(int64_t value) {
+  if (value < -1 || value > 1) return std::nullopt;
+  return static_cast<uint8_t>(value == 1 ? 1 : 0);
+}
+
 /// ReadOptions::columns: each of the letters t, x, y and p once, c at most once, _ for what is skipped.
 /// Errors: illegal_parameter.
 Result<std::vector<Column>> columns_from(std::string_view letters);

@@ -31,8 +31,21 @@ std::optional<int64_t> integer_from(std::string_view token) {
   return negative ? -value : value;
 }
 
-std::optional<int64_t> microseconds_from(std::string_view token, int unit_exponent) {
-  const bool negative = take_sign(token);
+namespace {
+
+// A decimal number as a whole number of a unit, and what is left over.
+struct Scanned {
+  bool negative = false;
+  int64_t whole = 0;
+  bool too_large = false;  // for a whole number nearer to 0 than about 2^62
+  int next = 0;            // the digit behind the whole number ...
+  bool finer = false;      // ... and whether any behind that one is not 0
+};
+
+// nullopt if the token is no such number.
+std::optional<Scanned> scan(std::string_view token, int unit_exponent) {
+  Scanned scanned;
+  scanned.negative = take_sign(token);
   size_t point = token.npos;
   int64_t exponent = 0;
   for (size_t i = 0; i < token.size(); ++i) {
@@ -45,35 +58,50 @@ std::optional<int64_t> microseconds_from(std::string_view token, int unit_expone
   }
   point = std::min(point, token.size());
 
-  // The first `whole` digits make the microseconds, the next one decides the rounding.
+  // The first `whole` digits make the whole number.
   const int64_t whole = static_cast<int64_t>(point) + exponent + unit_exponent;
-  int64_t value = 0;
+  const auto append = [&scanned](int digit) {
+    scanned.too_large |= scanned.whole > kMaxTextTime / 10;
+    if (!scanned.too_large) scanned.whole = scanned.whole * 10 + digit;
+  };
   int64_t index = 0;
-  int rounding = 0;
-  bool finer = false;  // something is left behind the rounding digit
   for (size_t i = 0; i < token.size(); ++i) {
     if (i == point) continue;
     if (!is_digit(token[i])) return std::nullopt;
     const int digit = token[i] - '0';
     if (index < whole) {
-      if (value > kMaxTextTime / 10) return std::nullopt;
-      value = value * 10 + digit;
+      append(digit);
     } else if (index == whole) {
-      rounding = digit;
+      scanned.next = digit;
     } else {
-      finer |= digit != 0;
+      scanned.finer |= digit != 0;
     }
     ++index;
   }
   if (index == 0) return std::nullopt;
-  for (; index < whole && value != 0; ++index) {
-    if (value > kMaxTextTime / 10) return std::nullopt;
-    value *= 10;
-  }
+  for (; index < whole && scanned.whole != 0 && !scanned.too_large; ++index) append(0);
+  return scanned;
+}
+
+}  // namespace
+
+std::optional<int64_t> whole_from(std::string_view token) {
+  constexpr int64_t kLimit = int64_t{1} << 31;
+  if (const auto integer = integer_from(token)) return integer;
+  const auto scanned = scan(token, 0);
+  if (!scanned || scanned->next != 0 || scanned->finer) return std::nullopt;
+  const int64_t value = scanned->too_large ? kLimit : std::min(scanned->whole, kLimit);
+  return scanned->negative ? -value : value;
+}
+
+std::optional<int64_t> microseconds_from(std::string_view token, int unit_exponent) {
+  const auto scanned = scan(token, unit_exponent);
+  if (!scanned || scanned->too_large) return std::nullopt;
   // Half up is towards plus infinity: a negative time moves away from zero only beyond the half.
-  if (rounding > 5 || (rounding == 5 && (!negative || finer))) ++value;
+  const bool up = scanned->next > 5 || (scanned->next == 5 && (!scanned->negative || scanned->finer));
+  const int64_t value = scanned->whole + (up ? 1 : 0);
   if (value >= kMaxTextTime) return std::nullopt;
-  return negative ? -value : value;
+  return scanned->negative ? -value : value;
 }
 
 bool is_decimal(std::string_view token) {

@@ -22,6 +22,9 @@ inline std::optional<int64_t> microseconds_from_seconds(std::string_view token) 
 /// Whether the token is a decimal number, which the others take.
 bool is_decimal(std::string_view token);
 
+/// A decimal number that is whole ("30", "30.000", "3.0e+01"), limited to +-2^31; nullopt if it is none.
+std::optional<int64_t> whole_from(std::string_view token);
+
 /// A decimal integer, limited to +-2^31; nullopt if it is none.
 std::optional<int64_t> integer_from(std::string_view token);
 

@@ -41,7 +41,7 @@ class ImageList {
       const std::string line(all.substr(0, length));
       lines_.skip(std::min(length + 1, all.size()));
       if (is_blank(line)) continue;
-      const Fields fields = split(line);
+      const Fields fields = split(line, separator_of(line));
       const auto t = microseconds_from_seconds(fields.text[0]);
       if (fields.count != 2 || !t) {
         return bad(text("images.txt: line ", number_, " is not a time in seconds and a name"));

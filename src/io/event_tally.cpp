@@ -41,6 +41,14 @@ bool EventTally::is_plain(std::span<const Event> events) const {
 
 size_t EventTally::keep_all(std::span<Event> events) {
   if (events.empty()) return 0;
+  // All steps lead forward, so none is longer than their sum.
+  const int64_t begin = previous_ == kNoTime ? events.front().t : previous_;
+  if (static_cast<uint64_t>(events.back().t) - static_cast<uint64_t>(begin) > kLongestStep) [[unlikely]] {
+    for (const Event& e : events) {
+      count_jump(e.t);
+      previous_ = e.t;
+    }
+  }
   previous_ = events.back().t;
   if (time_shift_ == TimeShift::first_event && !shift_) shift_ = events.front().t;
   if (shift_) {
@@ -79,6 +87,7 @@ size_t EventTally::keep_by_policy(std::span<Event> events) {
 // Whether the time policy lets the event pass, perhaps with another time.
 bool EventTally::in_order(Event& e) {
   if (e.t >= previous_) {
+    count_jump(e.t);
     previous_ = e.t;
     return true;
   }
@@ -119,6 +128,15 @@ void EventTally::set_first_high(int64_t t) {
   if (time_shift_ == TimeShift::first_high && !shift_) shift_ = t;
 }
 
+void EventTally::leave_out_polarity(std::string_view unit, uint64_t place) {
+  if (failure_) return;
+  ++report.undefined_polarities;
+  if (!strict_) return;
+  fail({ErrorCode::bad_input, text(unit, " ", place,
+                                   " holds an event whose polarity the format does not define; leave out "
+                                   "--strict to pass over it")});
+}
+
 void EventTally::note_damage(uint64_t byte, std::string what) {
   if (strict_)
     fail({ErrorCode::bad_input, text("byte ", byte, ": ", what, "; leave out --strict to read the rest")});
@@ -135,6 +153,17 @@ void EventTally::count_back_step(int64_t t) {
   const auto step = static_cast<int64_t>(static_cast<uint64_t>(previous_) - static_cast<uint64_t>(t));
   ++report.back_steps;
   report.largest_back_step = std::max(report.largest_back_step, step);
+}
+
+// Of an event at t, which is not before the one in front of it.
+void EventTally::count_jump(int64_t t) {
+  // Unsigned, as in count_back_step.
+  const uint64_t step = static_cast<uint64_t>(t) - static_cast<uint64_t>(previous_);
+  if (previous_ == kNoTime || step <= kLongestStep) return;
+  ++report.jumps;
+  if (step <= static_cast<uint64_t>(report.largest_jump)) return;
+  report.largest_jump = static_cast<int64_t>(std::min<uint64_t>(step, std::numeric_limits<int64_t>::max()));
+  report.largest_jump_from = previous_;
 }
 
 }  // namespace scarf

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "scarf/io.h"
 
@@ -32,6 +33,10 @@ class EventTally {
   /// The time of the first TIME_HIGH, for TimeShift::first_high; before the first event.
   void set_first_high(int64_t t);
 
+  /// Counts an event that is left out, as its format does not define its polarity; `unit` and `place` ("row",
+  /// 7) say where it is. With ReadOptions::strict that is a failure.
+  void leave_out_polarity(std::string_view unit, uint64_t place);
+
   /// Notes a broken place of the file. With ReadOptions::strict that is a failure.
   void note_damage(uint64_t byte, std::string what);
 
@@ -42,11 +47,14 @@ class EventTally {
   ReadReport report;
 
  private:
+  static constexpr int64_t kNoTime = std::numeric_limits<int64_t>::min();
+
   bool is_plain(std::span<const Event> events) const;
   size_t keep_all(std::span<Event> events);
   size_t keep_by_policy(std::span<Event> events);
   bool in_order(Event& event);
   void count_back_step(int64_t t);
+  void count_jump(int64_t t);
 
   std::optional<SensorSize> sensor_;
   SensorSize limit_;
@@ -55,7 +63,7 @@ class EventTally {
   TimeShift time_shift_;
   bool strict_;
   std::optional<int64_t> shift_;
-  int64_t previous_ = std::numeric_limits<int64_t>::min();
+  int64_t previous_ = kNoTime;
   std::optional<Error> failure_;
 };
 

@@ -76,12 +76,21 @@ Result<std::unique_ptr<Source>> open_as(const Format& format, Input input, const
 
 Error unrecognised(const Input& input) {
   const auto bytes = input.bytes.available();
-  std::string_view what = foreign_format(bytes);
-  if (!what.empty()) return {ErrorCode::bad_input, std::string(what)};
+  const ForeignFile foreign = foreign_file(bytes, input.name);
+  if (!foreign.what.empty()) {
+    return {foreign.recording ? ErrorCode::bad_input : ErrorCode::unrecognised, std::string(foreign.what)};
+  }
+  std::string_view what;
   if (input.folder) what = "this folder is no recording that scarf knows";
   if (input.header) what = "the header names no format, and the words do not tell";
-  if (what.empty()) what = bytes.empty() ? "the file is empty" : "not recognised as events";
-  const bool recording = input.header || foreign_recording(bytes);
+  const bool empty = bytes.empty() && what.empty();
+  if (empty && is_lost_if_empty(input.name)) {
+    return {ErrorCode::bad_input, "the file is empty, as a broken download leaves it; fetch it again"};
+  }
+  if (what.empty()) what = empty ? "the file is empty" : "not recognised as events";
+  const bool by_name = is_recording_by_name(input.name);
+  if (by_name) what = "the file does not begin as its name says, so it is cut or damaged, or no recording";
+  const bool recording = input.header.has_value() || by_name;
   return {recording ? ErrorCode::bad_input : ErrorCode::unrecognised,
           text(what, "; name the format with --format, `scarf formats` lists them")};
 }
@@ -94,7 +103,7 @@ Result<const Format*> recognise(Input& input) {
     const auto bytes = input.bytes.available().first(std::min(size, input.bytes.available().size()));
     const bool ended = input.bytes.ended() && bytes.size() == input.bytes.available().size();
     const Beginning beginning{bytes, ended, size == kLookAhead.back() || ended, input.path, input.folder};
-    const bool foreign = !input.header && !foreign_format(beginning.bytes).empty();
+    const bool foreign = !input.header && !foreign_file(beginning.bytes, input.name).what.empty();
     for (const Format* format : all_formats()) {
       if ((input.header && !format->prophesee) || (foreign && !format->packed)) continue;
       if (format->recognise != nullptr && format->recognise(beginning)) return format;
@@ -113,13 +122,24 @@ Error named(const std::string& name, const Error& error) {
   return {error.code, text(name, ": ", error.message)};
 }
 
+// The format that is named, unless the file is surely none.
+Result<const Format*> named_format(Input& input, const std::string& name) {
+  constexpr size_t kEnough = 64;
+  if (!input.header && !input.folder) {
+    if (const auto filled = input.bytes.fill(kEnough); !filled) return filled.error();
+    const ForeignFile foreign = foreign_file(input.bytes.available(), input.name);
+    if (foreign.stand_in) return Error{ErrorCode::bad_input, std::string(foreign.what)};
+  }
+  return find_format(name);
+}
+
 template <class Source>
 Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options) {
   const std::string name = input.name;
   auto header = read_prophesee_header(input.bytes);
   if (!header) return named(name, header.error());
   input.header = *std::move(header);
-  const auto format = options.format.empty() ? recognise(input) : find_format(options.format);
+  const auto format = options.format.empty() ? recognise(input) : named_format(input, options.format);
   if (!format) return named(name, format.error());
   auto source = open_as<Source>(**format, std::move(input), options);
   if (source) return source;

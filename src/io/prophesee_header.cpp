@@ -79,7 +79,8 @@ Result<SensorSize> size_from(std::string_view key, std::string_view width, std::
 struct Keys {
   std::string format, evt, geometry, system_id, endianness, camera_integrator, plugin_integrator;
   std::string version, width, height;
-  bool dat = false;  // keys that only DAT files have
+  bool dat = false;    // keys that only DAT files have
+  bool index = false;  // keys that only indexes of recordings have
 
   void set(std::string_view key, std::string_view value) {
     if (key == "format") format = value;
@@ -92,6 +93,7 @@ struct Keys {
     if (key == "Version") version = value;
     if (key == "Width") width = value;
     if (key == "Height") height = value;
+    index |= key == "index_version" || key == "bookmark_period_us";
     dat |= key == "Data" || key == "Version" || key == "Width" || key == "Height";
   }
 };
@@ -218,6 +220,12 @@ Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input) 
     input.skip(*length);
   }
   if (!any) return std::optional<PropheseeHeader>();
+  // Behind the recording's own header come places in it, which would pass as words.
+  if (keys.index) {
+    return Error{ErrorCode::unrecognised,
+                 "this is an index that OpenEB keeps beside a recording (NAME.raw.tmp_index), no recording; "
+                 "name the recording itself"};
+  }
   const auto header = interpret(keys);
   if (!header) return header.error();
   return std::optional(*header);

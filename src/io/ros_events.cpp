@@ -147,8 +147,12 @@ std::string RosEventDecoder::decode_array(const RosEvents& message, std::vector<
     const auto seconds = cursor.number<uint32_t>();
     const auto nanoseconds = cursor.number<uint32_t>();
     event.t = microseconds_of(uint64_t{seconds} * 1'000'000'000 + nanoseconds);
-    event.p = cursor.number<uint8_t>() != 0 ? 1 : 0;
+    event.p = cursor.number<uint8_t>();
     if (cursor.failed()) return text("the message ends within event ", i, " of ", message.count);
+    if (event.p > 1) {
+      ++undefined_;
+      continue;
+    }
     events.push_back(event);
   }
   return "";

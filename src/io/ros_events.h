@@ -28,6 +28,8 @@ class RosEventDecoder {
 
   uint64_t gaps() const { return gaps_; }
   uint64_t unknown_words() const { return unknown_ + evt3_.unknown_words(); }
+  /// Events of EventArray left out, as their polarity is no boolean.
+  uint64_t undefined_polarities() const { return undefined_; }
   /// Bytes at the ends of messages that make no whole word.
   uint64_t truncated_bytes() const { return truncated_; }
 
@@ -46,6 +48,7 @@ class RosEventDecoder {
   uint8_t base_p_ = 0;
   uint64_t gaps_ = 0;
   uint64_t unknown_ = 0;
+  uint64_t undefined_ = 0;
   uint64_t truncated_ = 0;
 };
 

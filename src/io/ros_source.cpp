@@ -35,8 +35,17 @@ class RosEventSource final : public BlockSource {
       tally_.note_damage(m.byte, m.damage);
     }
     tally_.report.gaps = decoder_.gaps();
-    tally_.report.unknown_words = decoder_.unknown_words();
-    tally_.report.truncated_bytes = truncated_ + decoder_.truncated_bytes();
+    ReadReport& report = tally_.report;
+    while (report.undefined_polarities < decoder_.undefined_polarities() && !tally_.failure()) {
+      tally_.leave_out_polarity("the message at byte", m.byte);
+    }
+    const uint64_t unknown = std::exchange(report.unknown_words, decoder_.unknown_words());
+    const uint64_t truncated = std::exchange(report.truncated_bytes, truncated_ + decoder_.truncated_bytes());
+    if (tally_.strict() && (report.unknown_words > unknown || report.truncated_bytes > truncated)) {
+      tally_.fail({ErrorCode::bad_input,
+                   text("the message at byte ", m.byte, " holds words that its encoding does not define, or ",
+                        "ends within one; leave out --strict to read the rest")});
+    }
     return true;
   }
 

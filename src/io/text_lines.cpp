@@ -10,46 +10,107 @@
 namespace scarf {
 namespace {
 
-std::optional<uint8_t> polarity_from(std::string_view token) {
-  if (token == "1" || token == "true" || token == "True") return uint8_t{1};
-  if (token == "0" || token == "-1" || token == "false" || token == "False") return uint8_t{0};
-  return std::nullopt;
-}
+constexpr std::string_view kBlanks = " \t\r";
 
 size_t place_of(Column column, const std::vector<Column>& columns) {
   return static_cast<size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
 }
 
+std::string_view trimmed(std::string_view field) {
+  const size_t begin = std::min(field.find_first_not_of(kBlanks), field.size());
+  field.remove_prefix(begin);
+  return field.substr(0, field.find_last_not_of(kBlanks) + 1);
+}
+
+std::string_view unquoted(std::string_view field) {
+  const bool quoted = field.size() >= 2 && (field[0] == '"' || field[0] == '\'') && field.back() == field[0];
+  return quoted ? field.substr(1, field.size() - 2) : field;
+}
+
+bool is_word(std::string_view field, std::string_view word) {
+  return std::equal(field.begin(), field.end(), word.begin(), word.end(), [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
+}
+
+bool separates(char c, Separator separator) {
+  return separator == Separator::blanks ? kBlanks.find(c) != kBlanks.npos : c == static_cast<char>(separator);
+}
+
+// Where the field ends that begins at `at`: at a separator that is not in quotes.
+size_t field_end(std::string_view line, size_t at, Separator separator) {
+  char quote = 0;
+  for (; at < line.size(); ++at) {
+    const char c = line[at];
+    if (quote != 0) {
+      quote = c == quote ? '\0' : quote;
+    } else if (c == '"') {
+      quote = c;
+    } else if (separates(c, separator)) {
+      break;
+    }
+  }
+  return at;
+}
+
 }  // namespace
 
-Fields split(std::string_view line) {
-  const auto separates = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; };
+Separator separator_of(std::string_view line) {
+  const auto has = [&](Separator separator) { return field_end(line, 0, separator) < line.size(); };
+  if (has(Separator::semicolon)) return Separator::semicolon;
+  if (has(Separator::comma)) return Separator::comma;
+  const bool spaces = line.find(' ') != line.npos;
+  return has(Separator::tab) && !spaces ? Separator::tab : Separator::blanks;
+}
+
+size_t Fields::without_last_empty() const {
+  const bool empty = count > 1 && count <= kMaxFields && text[count - 1].empty();
+  return empty ? count - 1 : count;
+}
+
+Fields split(std::string_view line, Separator separator) {
   Fields fields;
   size_t at = 0;
   for (;;) {
-    while (at < line.size() && separates(line[at])) ++at;
-    if (at == line.size()) return fields;
-    const size_t begin = at;
-    while (at < line.size() && !separates(line[at])) ++at;
+    if (separator == Separator::blanks) {
+      while (at < line.size() && separates(line[at], separator)) ++at;
+      if (at == line.size()) return fields;
+    }
     if (fields.count == kMaxFields) return ++fields.count, fields;
-    fields.text[fields.count++] = line.substr(begin, at - begin);
+    const size_t end = field_end(line, at, separator);
+    fields.text[fields.count++] = unquoted(trimmed(line.substr(at, end - at)));
+    if (end == line.size()) return fields;
+    at = end + 1;
   }
 }
 
 bool is_blank(std::string_view line) {
-  return line.starts_with('#') || line.find_first_not_of(" \t,\r") == line.npos;
+  return line.starts_with('#') || line.find_first_not_of(" \t,;\r") == line.npos;
 }
 
-bool is_polarity(std::string_view token) {
-  return polarity_from(token).has_value();
+PolarityField polarity_field(std::string_view field) {
+  if (field == "1") return PolarityField::on;
+  if (field == "0") return PolarityField::off;
+  if (is_word(field, "true") || is_word(field, "on")) return PolarityField::on;
+  if (is_word(field, "false") || is_word(field, "off")) return PolarityField::off;
+  if (const auto number = whole_from(field)) {
+    const auto polarity = polarity_from(*number);
+    if (!polarity) return PolarityField::undefined;
+    return *polarity == 1 ? PolarityField::on : PolarityField::off;
+  }
+  const bool number =
+      is_decimal(field) || is_word(field, "nan") || is_word(field, "inf") || is_word(field, "-inf");
+  return number ? PolarityField::undefined : PolarityField::none;
 }
 
-TextLayout::TextLayout(const std::vector<Column>& columns, int exponent, std::string camera)
+TextLayout::TextLayout(const std::vector<Column>& columns, Separator separator, int exponent,
+                       std::string camera)
     : count_(columns.size()),
       t_(place_of(Column::t, columns)),
       x_(place_of(Column::x, columns)),
       y_(place_of(Column::y, columns)),
       p_(place_of(Column::p, columns)),
+      separator_(separator),
       exponent_(exponent),
       camera_(std::move(camera)) {
   const size_t place = place_of(Column::camera, columns);
@@ -57,19 +118,22 @@ TextLayout::TextLayout(const std::vector<Column>& columns, int exponent, std::st
 }
 
 TextLayout::Line TextLayout::parse(std::string_view line) const {
-  if (line.starts_with('#')) return {Line::blank, {}};
-  const Fields fields = split(line);
-  if (fields.count == 0) return {Line::blank, {}};
-  if (fields.count != count_ || count_ > kMaxFields) return {};
+  if (is_blank(line)) return {Line::blank, {}};
+  const Fields fields = split(line, separator_);
+  if (fields.count != count_ && fields.without_last_empty() != count_) return {};
+  if (count_ > kMaxFields) return {};
   const auto t = microseconds_from(fields.text[t_], exponent_);
-  const auto x = integer_from(fields.text[x_]);
-  const auto y = integer_from(fields.text[y_]);
-  const auto p = polarity_from(fields.text[p_]);
-  if (!t || !x || !y || !p) return {};
+  const auto x = whole_from(fields.text[x_]);
+  const auto y = whole_from(fields.text[y_]);
+  const PolarityField p = polarity_field(fields.text[p_]);
+  if (!t || !x || !y || p == PolarityField::none) return {};
   if (camera_column_ && fields.text[*camera_column_] != camera_) return {Line::blank, {}};
+  if (p == PolarityField::undefined) return {Line::undefined, {}};
   const auto fits = [](int64_t v) { return v >= 0 && v <= std::numeric_limits<uint16_t>::max(); };
   if (!fits(*x) || !fits(*y)) return {Line::outside, {*t}};
-  return {Line::event, {*t, static_cast<uint16_t>(*x), static_cast<uint16_t>(*y), *p}};
+  return {Line::event,
+          {*t, static_cast<uint16_t>(*x), static_cast<uint16_t>(*y),
+           static_cast<uint8_t>(p == PolarityField::on ? 1 : 0)}};
 }
 
 }  // namespace scarf

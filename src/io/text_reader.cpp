@@ -69,6 +69,8 @@ BufferedSource::Decoded TextReader::decode(std::span<const uint8_t> bytes, bool 
         count += tally_.keep(out.subspan(count, 1));
       } else if (line.kind == Line::outside) {
         tally_.drop(line.content.t);
+      } else if (line.kind == Line::undefined) {
+        tally_.leave_out_polarity("the line at byte", bytes_read() + at);
       } else if (line.kind == Line::unknown) {
         if (!whole) break;  // the file ends in the middle of a line
         ++report.unknown_words;
@@ -107,14 +109,20 @@ Result<std::unique_ptr<EventSource>> open_text_lines(std::string_view format, In
                                                      std::optional<SensorSize> sensor,
                                                      const ReadOptions& options) {
   const bool csv = format == kCsv;
-  // Without a start (the format was named, not recognised) every line is looked at.
+  // Without a start (the format was named, not recognised) every line is looked at. What is decided depends
+  // on so many bytes, not on how they come.
   TextStart start;
+  Result<TextLayout> layout = text_layout(start, {}, csv, options);
   for (const size_t size : kLookAhead) {
     if (const auto filled = input.bytes.fill(size); !filled) return filled.error();
-    const auto found = find_text_start(input.bytes.available(), input.bytes.ended());
-    if (!found) continue;
-    start = *found;
-    if (!wants_more_lines(start, csv, options)) break;
+    const auto bytes = input.bytes.available().first(std::min(size, input.bytes.available().size()));
+    const bool ended = input.bytes.ended() && bytes.size() == input.bytes.available().size();
+    const auto found = find_text_start(bytes, ended);
+    if (found) start = *found;
+    layout = text_layout(start, bytes, csv, options);
+    // A few lines say little of columns that nobody has named.
+    const bool enough = size > kLookAhead.front() || !is_order_guessed(start, options);
+    if (found && layout && enough) break;
   }
   if (start.size) {
     const auto legal = checked_sensor(start.size->width, start.size->height, "the line with the size");
@@ -124,7 +132,6 @@ Result<std::unique_ptr<EventSource>> open_text_lines(std::string_view format, In
   if (!in_file) return in_file.error();
   const auto agreed = agreed_sensor(*in_file, options.sensor);
   if (!agreed) return agreed.error();
-  auto layout = text_layout(start, csv, options);
   if (!layout) return layout.error();
   input.bytes.skip(start.bytes);
   return std::unique_ptr<EventSource>(

@@ -105,7 +105,8 @@ TEST(NpyReader, NumbersThatAreNoEventsAreCounted) {
       read_options("", "txyp"));
   EXPECT_EQ(r.error, "");
   EXPECT_THAT(r.events, ElementsAre(Event{100'000, 1, 2, 1}));
-  EXPECT_EQ(r.report.unknown_words, 5u);
+  EXPECT_EQ(r.report.unknown_words, 4u);
+  EXPECT_EQ(r.report.undefined_polarities, 1u);
   EXPECT_EQ(r.report.outside, 2u);
 }
 

@@ -80,6 +80,39 @@ TEST(EventTally, AnEventOutsideTheSensorIsCountedOrEndsTheReading) {
   }
 }
 
+// However the events come, and whatever becomes of them.
+TEST(EventTally, StepsForwardThatAreTooLongAreJumps) {
+  constexpr int64_t kStep = kLongestStep;
+  const std::vector<Event> events = {{-5, 1, 1, 1},             // the first event follows none
+                                     {kStep - 5, 1, 1, 1},      // as long as a step may be
+                                     {2 * kStep - 4, 1, 1, 1},  // a jump
+                                     {2 * kStep - 4, 1, 1, 1},  //
+                                     {5 * kStep, 9, 9, 1},  // the largest one, to an event outside the sensor
+                                     {4 * kStep, 1, 1, 1},  // a step back
+                                     {4 * kStep + 1, 1, 1, 1},  //
+                                     {7 * kStep + 5, 1, 1, 1},  // as large as the largest one: that stays
+                                     {7 * kStep + 5 + kStep, 1, 1, 1}};  //
+  for (const TimePolicy policy : {TimePolicy::keep, TimePolicy::clamp, TimePolicy::drop}) {
+    for (const size_t step : {1, 2, 3, 9}) {
+      ReadOptions options;
+      options.time_policy = policy;
+      options.time_shift = TimeShift::first_event;
+      EventTally tally(SensorSize{4, 4}, options);
+      kept_times(tally, events, step);
+      const bool keep = policy == TimePolicy::keep;
+      EXPECT_EQ(tally.report.jumps, 3u);
+      EXPECT_EQ(tally.report.largest_jump, 3 * kStep + 4);
+      EXPECT_EQ(tally.report.largest_jump_from, 2 * kStep - 4);
+      EXPECT_EQ(tally.report.back_steps, keep ? 1u : 2u);
+    }
+  }
+  EventTally hostile(std::nullopt, {});
+  kept_times(hostile,
+             events_at({std::numeric_limits<int64_t>::min() + 1, std::numeric_limits<int64_t>::max()}), 2);
+  EXPECT_EQ(hostile.report.jumps, 1u);
+  EXPECT_EQ(hostile.report.largest_jump, std::numeric_limits<int64_t>::max());
+}
+
 TEST(EventTally, ShiftsAreSubtractedFromEveryTime) {
   ReadOptions options;
   options.time_shift = TimeShift::first_event;

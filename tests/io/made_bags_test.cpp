@@ -152,6 +152,29 @@ TEST_F(MadeBags, Aedat4WithEveryCompression) {
   }
 }
 
+// A boolean is a byte in these formats, and has two values.
+TEST_F(MadeBags, PolaritiesThatAreNoBooleansAreCounted) {
+  std::vector<Event> odd = events;
+  odd[3].p = 2;
+  odd[100].p = 255;
+  std::vector<Event> defined = events;
+  defined.erase(defined.begin() + 100);
+  defined.erase(defined.begin() + 3);
+  write_events(odd);
+  for (const auto& [kind, format] :
+       {std::pair{"rosbag-dvs-none", "rosbag"}, std::pair{"rosbag2-folder", "rosbag2"},
+        std::pair{"aedat4-none-1", "aedat4"}}) {
+    SCOPED_TRACE(kind);
+    if (!make(kind, format)) GTEST_SKIP() << kMissing;
+    const auto r = read(kind);
+    EXPECT_EQ(r.error, "");
+    EXPECT_EQ(r.events, defined);
+    EXPECT_EQ(r.report.undefined_polarities, 2u);
+    EXPECT_THAT(read(kind, {.sensor = {}, .strict = true}).error,
+                AllOf(HasSubstr("byte "), HasSubstr("polarity")));
+  }
+}
+
 TEST_F(MadeBags, Aedat4WithTwoCameras) {
   if (!make("aedat4-zstd-2", "aedat4")) GTEST_SKIP() << kMissing;
   EXPECT_THAT(read("aedat4-zstd-2").error, AllOf(HasSubstr("--stream"), HasSubstr("0 (346x260 from CAMERA0)"),

@@ -4,9 +4,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <thread>
 
 #include "io_test_helpers.h"
+#include "scarf/frames.h"
 #include "tests/support/archive_bytes.h"
 
 namespace scarf {
@@ -141,7 +143,14 @@ TEST(Open, WhatHoldsNoEventsIsNoRecording) {
   using test::zip_file;
   const Bytes labels = npy_file("[('t', '<u8'), ('w', '<f4')]", "(1,)", Bytes(12));
   const Bytes matrix = npy_file("'<f8'", "(3, 3)", Bytes(72));
-  const Bytes five_columns = npy_file("'<i8'", "(1, 5)", Bytes(40));
+  // t, x, y, p and something else, twice.
+  Bytes five(80);
+  for (size_t i = 0; i < 5; ++i) five[8 * i] = std::array<uint8_t, 5>{1, 200, 100, 1, 50}[i];
+  for (size_t i = 0; i < 5; ++i) five[40 + 8 * i] = std::array<uint8_t, 5>{9, 20, 10, 0, 5}[i];
+  const Bytes five_columns = npy_file("'<i8'", "(2, 5)", five);
+  const Bytes boxes = npy_file("'<f8'", "(2, 4)", Bytes(64, 0x3f));
+  const Bytes poses = npy_file("'<i8'", "(1, 7)", Bytes(56));
+  const Bytes picture = npy_file("'|u1'", "(4, 640)", Bytes(2560));
   const Bytes column = npy_file("'<i8'", "(1,)", Bytes(8));
   const Bytes prose = bytes_of("Once upon a time\n");
   const auto code = [](const Bytes& bytes, const ReadOptions& options = {}) {
@@ -151,6 +160,9 @@ TEST(Open, WhatHoldsNoEventsIsNoRecording) {
   };
   EXPECT_EQ(code(labels), ErrorCode::unrecognised);
   EXPECT_EQ(code(matrix), ErrorCode::unrecognised);
+  EXPECT_EQ(code(boxes), ErrorCode::unrecognised);
+  EXPECT_EQ(code(poses), ErrorCode::unrecognised);
+  EXPECT_EQ(code(picture), ErrorCode::unrecognised);
   EXPECT_EQ(code(five_columns), ErrorCode::bad_input);  // --columns may make events of it
   EXPECT_EQ(code(labels, read_options("", "", "", "npy")), ErrorCode::bad_input);
   EXPECT_EQ(code(with_words<uint32_t>("% Version 2\n\x0E\x08", {3, 0x0200u})), ErrorCode::unrecognised);
@@ -170,6 +182,73 @@ TEST(Open, WhatHoldsNoEventsIsNoRecording) {
   EXPECT_EQ(code(zip_file({{"a.png", Bytes(9)}, {"b.png", Bytes(9)}})), ErrorCode::unrecognised);
   EXPECT_EQ(code(zip_file({{"README.txt", prose}})), ErrorCode::unrecognised);
   EXPECT_EQ(code(zip_file({{"a/events.txt", prose}, {"b/events.txt", prose}})), ErrorCode::bad_input);
+}
+
+// A file that should have been a recording is a failure, and the same under another name is passed over.
+TEST(Open, WhatStandsInForARecordingIsNamed) {
+  const std::string pointer =
+      "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, 'a') + "\nsize 8366716\n";
+  const std::string page = "\n<!DOCTYPE HTML><html><head><title>Virus scan warning</title></head></html>\n";
+  const std::string refusal = "<?xml version=\"1.0\"?><Error><Code>AccessDenied</Code></Error>";
+  const TemporaryFolder folder;
+  const auto expect = [&](const std::string& name, const std::string& content, ErrorCode code,
+                          const char* what) {
+    SCOPED_TRACE(name);
+    folder.add(name, bytes_of(content));
+    const auto source = open_events(folder.path() + "/" + name);
+    ASSERT_FALSE(source.ok());
+    EXPECT_EQ(source.error().code, code);
+    EXPECT_THAT(source.error().message, AllOf(HasSubstr(name), HasSubstr(what)));
+  };
+  for (const char* name :
+       {"a.raw", "a.dat", "a.aedat4", "a.h5", "a.bag", "a.csv", "a.npz", "events", "a.RAW"}) {
+    expect(name, pointer, ErrorCode::bad_input, "git lfs pull");
+  }
+  for (const char* name : {"a.png", "a.yaml", "a.md", "a.tar"}) {
+    expect(name, pointer, ErrorCode::unrecognised, "git lfs pull");
+  }
+  for (const char* name : {"a.raw", "a.zip", "a.h5", "a.txt", "a.mcap"}) {
+    expect(name, page, ErrorCode::bad_input, "page");
+    expect(name, refusal, ErrorCode::bad_input, "page");
+  }
+  for (const char* name : {"index.html", "a.xml", "LICENSE"})
+    expect(name, page, ErrorCode::unrecognised, "page");
+  for (const char* name : {"a.raw", "a.h5", "a.aedat4", "a.zip", "a.npy"}) {
+    expect(name, "", ErrorCode::bad_input, "fetch it again");
+  }
+  for (const char* name : {"a.txt", "a.png", "log"}) expect(name, "", ErrorCode::unrecognised, "empty");
+  expect("b.aedat4", "#!AER-DA", ErrorCode::bad_input, "cut or damaged");
+  expect("b.bag", "#ROS", ErrorCode::bad_input, "cut or damaged");
+  expect("b.zip", "PK\x03\x04 and no more", ErrorCode::bad_input, "zip");
+  expect("b.h5", std::string("\x89HDF\r\n\x1a\n\0\0", 10), ErrorCode::bad_input, "HDF5");
+  expect("b.gz", "\x1f\x8b\b and no more", ErrorCode::unrecognised, "unpack");
+  expect("b.jpg", "\xff\xd8\xff\xe0", ErrorCode::unrecognised, "JPEG");
+  expect("b.csv", std::string("\xff\xfet\0,\0x\0,\0y\0,\0p\0\n\0", 18), ErrorCode::bad_input, "UTF-16");
+  // Nor is it words because somebody names their format.
+  folder.add("c.raw", bytes_of(pointer));
+  const auto named = open_events(folder.path() + "/c.raw", read_options("", "", "", "evt3"));
+  ASSERT_FALSE(named.ok());
+  EXPECT_THAT(named.error().message, HasSubstr("git lfs pull"));
+}
+
+// The header of the recording, and behind it places in the recording.
+TEST(Open, AnIndexOfOpenEbIsNoRecording) {
+  for (const char* key : {"% index_version 2.0\n", "% bookmark_period_us 2000\n"}) {
+    Bytes index = bytes_of(std::string("% evt 3.0\n% format EVT3;height=720;width=1280\n") + key + "% end\n");
+    for (uint64_t i = 0; i < 200; ++i) {
+      append_little_endian(index, 2000 * i);
+      append_little_endian(index, 160 + 5000 * i);
+      append_little_endian(index, static_cast<uint32_t>(i * 77));
+    }
+    const TemporaryFile file(index);
+    for (const char* format : {"", "evt3"}) {
+      const auto source = open_events(file.path(), read_options("", "", "", format));
+      ASSERT_FALSE(source.ok());
+      EXPECT_EQ(source.error().code, ErrorCode::unrecognised);
+      EXPECT_THAT(source.error().message, HasSubstr("index that OpenEB keeps"));
+    }
+    EXPECT_FALSE(open_triggers(file.path()).ok());
+  }
 }
 
 TEST(Open, AFolderOfAnotherProgramIsNoRecording) {

@@ -125,6 +125,8 @@ class Reader final : public BlockSource {
           tally_.fail({ErrorCode::bad_input, text("row ", block_row_ + at_, " has no time that scarf holds; ",
                                                   "leave out --strict to pass over it")});
         }
+      } else if (p_[at_] == kUndefined) {
+        tally_.leave_out_polarity("row", block_row_ + at_);
       } else if (outside(at_)) {
         tally_.drop(t_[at_]);
       } else {
@@ -132,17 +134,19 @@ class Reader final : public BlockSource {
       }
     }
     block.reserve(t_.size() - at_);
-    for (; at_ < t_.size() && legal_time(t_[at_]) && !outside(at_); ++at_) {
+    for (; at_ < t_.size() && legal_time(t_[at_]) && p_[at_] != kUndefined && !outside(at_); ++at_) {
       Event& e = block.emplace_back();
       e.t = t_[at_];
       e.x = static_cast<uint16_t>(x_[at_]);
       e.y = static_cast<uint16_t>(y_[at_]);
-      e.p = p_[at_] > 0 ? 1 : 0;
+      e.p = static_cast<uint8_t>(p_[at_]);
     }
     return true;
   }
 
  private:
+  static constexpr int64_t kUndefined = 2;  // of polarities
+
   static bool legal_time(int64_t t) { return t > -kMaxTime && t < kMaxTime; }
   bool outside(size_t i) const { return ((x_[i] | y_[i]) & ~int64_t{0xFFFF}) != 0; }
 
@@ -202,7 +206,14 @@ class Reader final : public BlockSource {
       int64_t t = microseconds(v, unit_);
       return __builtin_add_overflow(t, t_offset_, &t) ? kNoInteger : t;
     });
-    table_.numbers(EventTable::p).transform(p_, [](auto v) { return v > 0 ? 1 : 0; });
+    table_.numbers(EventTable::p).transform(p_, [](auto v) {
+      // Compared in its own type: a fraction, NaN and a negative number without its sign are neither.
+      using T = decltype(v);
+      if (v == T{1}) return int64_t{1};
+      if (v == T{0}) return int64_t{0};
+      if constexpr (std::is_signed_v<T>) return v == T{-1} ? int64_t{0} : kUndefined;
+      return kUndefined;
+    });
   }
 
   Handle file_;

@@ -204,6 +204,60 @@ TEST_F(Hdf5, ValuesThatNoEventHoldsAreCounted) {
   EXPECT_THAT(read("odd-values", {.sensor = {}, .strict = true}).error, HasSubstr("row 2"));
 }
 
+// Events of a polarity that is none are counted, whatever the layout, and never taken for bright ones.
+TEST_F(Hdf5, PolaritiesThatTheFormatDoesNotDefineAreCounted) {
+  std::vector<Event> defined;
+  for (size_t i = 0; i < events.size(); ++i) {
+    if (i % 1000 == 0) events[i].p = i % 2000 == 0 ? 2 : 7;
+    if (i % 1000 != 0) defined.push_back(events[i]);
+  }
+  const uint64_t undefined = events.size() - defined.size();
+  write_events(events);
+  for (const std::string layout : {"metavision-plain", "dsec-gzip", "rvt", "m3ed", "mvsec",
+                                   "columns-big-endian", "records", "array-integers"}) {
+    SCOPED_TRACE(layout);
+    if (!make({layout.c_str()})) GTEST_SKIP() << kMissing;
+    ReadOptions options;
+    if (layout == "m3ed" || layout == "mvsec") options.stream = "left";
+    if (layout == "array-integers") options.columns = "txyp";
+    auto r = read(layout, options);
+    if (layout == "mvsec") {
+      for (Event& e : r.events) e.t -= kUnixTime;
+    }
+    EXPECT_EQ(r.error, "");
+    EXPECT_EQ(digest_of(r.events), digest_of(defined));
+    EXPECT_EQ(r.report.undefined_polarities, undefined);
+    EXPECT_EQ(r.report.unknown_words, 0u);
+    options.strict = true;
+    EXPECT_THAT(read(layout, options).error, AllOf(HasSubstr("row 0"), HasSubstr("polarity")));
+  }
+}
+
+TEST_F(Hdf5, PolaritiesOfEveryTypeOfNumber) {
+  const struct {
+    const char* layout;
+    std::vector<uint8_t> p;
+    uint64_t undefined;
+  } cases[] = {{"polarities-u1-0,1,255,2", {0, 1}, 2},
+               {"polarities-i1-0,1,-1,2,-3", {0, 1, 0}, 2},
+               {"polarities-u2-1,65535", {1}, 1},
+               {"polarities-u4-1,4294967295", {1}, 1},
+               {"polarities-u8-1,9e18", {1}, 1},
+               {"polarities-f4-0,0.5,1,-1,1.5", {0, 1, 0}, 2},
+               {"polarities-f8-nan,1,inf,-0.25,0", {1, 0}, 3},
+               {"polarities-bool-0,1", {0, 1}, 0}};
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.layout);
+    if (!make({c.layout})) GTEST_SKIP() << kMissing;
+    const auto r = read(c.layout);
+    EXPECT_EQ(r.error, "");
+    std::vector<uint8_t> p;
+    for (const Event& e : r.events) p.push_back(e.p);
+    EXPECT_EQ(p, c.p);
+    EXPECT_EQ(r.report.undefined_polarities, c.undefined);
+  }
+}
+
 TEST_F(Hdf5, ABrokenChunkCostsItsRowsAlone) {
   if (!make({"metavision-broken", "dsec-broken"})) GTEST_SKIP() << kMissing;
   for (const auto& [layout, first, last] :

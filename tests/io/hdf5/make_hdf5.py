@@ -283,11 +283,16 @@ def write(layout, e, f):
         f["events/x"] = np.array([1, -1, 2, 3, 70000, 5], "i4")
         f["events/y"] = np.array([1, 1, 2, 3, 4, 5], "i4")
         f["events/t"] = np.array([0.5e-6, 1.5e-6, np.nan, 3e-6, 4e-6, 2.5e-6])
-        f["events/p"] = np.array([1, 1, 1, -1, 1, 2], "i1")
+        f["events/p"] = np.array([1, 1, 1, -1, 1, 1], "i1")
+    elif layout.startswith("polarities-"):  # of any type, as numbers between commas
+        kind, values = layout.split("-", 2)[1:]
+        f["events/p"] = np.array([float(v) for v in values.split(",")]).astype(kind)
+        for name in "xyt":
+            f[f"events/{name}"] = np.arange(len(f["events/p"]), dtype="u4")
     elif layout == "hole":  # nearly endless, and nothing of it was written but a chunk in the middle
         for name in "xytp":
             f.create_dataset(f"events/{name}", shape=(10**17,), dtype="<u4", chunks=(1024,))
-            f[f"events/{name}"][20480:21504] = 7
+            f[f"events/{name}"][20480:21504] = 1 if name == "p" else 7
     elif layout == "huge-chunk":
         f.create_dataset("events/x", shape=(10,), maxshape=(None,), chunks=(2**25 + 1,), dtype="<u2")
         columns(f, "events", e[:10], names=["x2", "y", "t", "p"])
