@@ -22,6 +22,7 @@ struct ReadReport {
   uint64_t back_steps = 0;        ///< events (outside ones included) older than the event before them;
                                   ///< with TimePolicy clamp and drop: than the newest one so far
   int64_t largest_back_step = 0;  ///< microseconds
+  int64_t time_shift = 0;         ///< microseconds subtracted from all times, by ReadOptions::time_shift
   uint64_t dropped = 0;           ///< events left out by TimePolicy::drop
   uint64_t gaps = 0;              ///< places where the file shows that data is missing
   uint64_t unknown_words = 0;     ///< words or lines that the format does not define
