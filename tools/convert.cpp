@@ -22,8 +22,10 @@ Result<int> convert(const ConvertOptions& options) {
   if (!source) return source.error();
   const auto sensor = require_sensor(**source, options.file);
   if (!sensor) return sensor.error();
-  const auto copied = copy_recording(
-      **source, [](Event&) { return true; }, *sensor, options.target);
+  const Choose everything = {.event = [](Event&) { return true; },
+                             .trigger = [](const Trigger&) { return true; }};
+  const auto copied =
+      copy_recording({**source, options.file, options.read}, everything, *sensor, options.target);
   if (!copied) return copied.error();
   const ReadReport& report = (*source)->report();
   std::string changed;
@@ -31,11 +33,10 @@ Result<int> convert(const ConvertOptions& options) {
     changed += text("changed: ", report.back_steps, " times of back-steps\n");
   }
   if (options.read.time_shift != TimeShift::none) changed += "changed: all times, by --time-shift\n";
-  const std::string lost = losses(**source);
-  remarks(options.target) << text("converted ", copied->events, " events from ", (*source)->format(), " to ",
-                                  copied->format, options.target.check ? ", checked" : "", "\n", changed,
-                                  lost, changed.empty() && lost.empty() ? "lossless\n" : "", "events ",
-                                  copied->digest, "\n");
+  remarks(options.target) << text(
+      "converted ", copied->events, " events from ", (*source)->format(), " to ", copied->format,
+      options.target.check ? ", checked" : "", "\n", beside_events(*copied), changed, copied->losses,
+      changed.empty() && copied->losses.empty() ? "lossless\n" : "", "events ", copied->digest, "\n");
   return 0;
 }
 

@@ -27,12 +27,17 @@ struct Region {
   int32_t height = 0;
 };
 
+struct TimePoint {
+  int64_t t = 0;
+  bool relative = false;  // to the first event
+};
+
 struct CutOptions {
   std::string file;
   ReadOptions read;
   CopyTarget target;
-  int64_t from = std::numeric_limits<int64_t>::min();
-  int64_t to = std::numeric_limits<int64_t>::max();
+  std::optional<TimePoint> from;
+  std::optional<TimePoint> to;
   std::optional<EventRange> events;
   std::optional<Region> region;
 };
@@ -77,11 +82,45 @@ Result<Region> parse_region(const std::string& word) {
   return r;
 }
 
-Result<int> cut(const CutOptions& options) {
-  if (options.from >= options.to) {
-    return illegal(
-        text("no time is from ", options.from, " to ", options.to, " us; --from must be below --to"));
+// "1.5s", or "+1.5s" for 1.5 s after the first event.
+Result<TimePoint> parse_time_point(const std::string& word) {
+  const bool relative = word.starts_with('+');
+  if (relative && word.starts_with("+-")) {
+    return illegal(text("'", word, "' is before the first event; leave it out"));
   }
+  const auto time = parse_time(relative ? word.substr(1) : word);
+  if (!time) return time.error();
+  return TimePoint{*time, relative};
+}
+
+// Times t with from <= t < to.
+struct TimeWindow {
+  int64_t from = std::numeric_limits<int64_t>::min();
+  int64_t to = std::numeric_limits<int64_t>::max();
+
+  bool contains(int64_t t) const { return from <= t && t < to; }
+};
+
+// What the options ask for in a recording whose first event has the time `first`.
+Result<TimeWindow> window_of(const CutOptions& options, int64_t first) {
+  const auto absolute = [&](const TimePoint& point) {
+    int64_t t = point.t;
+    if (point.relative && __builtin_add_overflow(t, first, &t)) t = std::numeric_limits<int64_t>::max();
+    return t;
+  };
+  TimeWindow window;
+  if (options.from) window.from = absolute(*options.from);
+  if (options.to) window.to = absolute(*options.to);
+  if (window.from < window.to) return window;
+  return illegal(text("no time is from ", window.from, " to ", window.to, " us; --from must be below --to"));
+}
+
+Result<int> cut(const CutOptions& options) {
+  // Told before the recording is opened, where that can be known.
+  const bool is_relative = (options.from && options.from->relative) || (options.to && options.to->relative);
+  const bool comparable = !options.from || !options.to || options.from->relative == options.to->relative;
+  const auto unshifted = window_of(options, 0);
+  if (comparable && !unshifted) return unshifted.error();
   const auto source = open_events(options.file, options.read);
   if (!source) return source.error();
   const auto sensor = require_sensor(**source, options.file);
@@ -93,23 +132,36 @@ Result<int> cut(const CutOptions& options) {
   }
 
   const EventRange range = options.events.value_or(EventRange{});
-  uint64_t index = 0;
-  const auto choose = [&](Event& e) {
+  // Without an event there is nothing that a time could be relative to.
+  TimeWindow window = is_relative ? TimeWindow{0, 0} : *unshifted;
+  uint64_t index = 0;  // of the next event
+  Choose choose;
+  choose.begin = [&](const Event& first) -> Result<void> {
+    const auto shifted = window_of(options, first.t);
+    if (!shifted) return shifted.error();
+    window = *shifted;
+    return {};
+  };
+  choose.trigger = [&](const Trigger& trigger) {
+    return index >= range.begin && index < range.end && window.contains(trigger.t);
+  };
+  choose.event = [&](Event& e) {
     const uint64_t i = index++;
     const int32_t x = e.x - region.x;
     const int32_t y = e.y - region.y;
-    if (i < range.begin || i >= range.end || e.t < options.from || e.t >= options.to) return false;
+    if (i < range.begin || i >= range.end || !window.contains(e.t)) return false;
     if (x < 0 || x >= region.width || y < 0 || y >= region.height) return false;
     e.x = static_cast<uint16_t>(x);
     e.y = static_cast<uint16_t>(y);
     return true;
   };
-  const auto copied = copy_recording(**source, choose, {region.width, region.height}, options.target);
+  const auto copied = copy_recording({**source, options.file, options.read}, choose,
+                                     {region.width, region.height}, options.target);
   if (!copied) return copied.error();
   remarks(options.target) << text("cut ", copied->events, " events out of ", copied->events + copied->left,
                                   " from ", (*source)->format(), " to ", copied->format,
-                                  options.target.check ? ", checked" : "", "\n", losses(**source), "events ",
-                                  copied->digest, "\n");
+                                  options.target.check ? ", checked" : "", "\n", beside_events(*copied),
+                                  copied->losses, "events ", copied->digest, "\n");
   return 0;
 }
 
@@ -120,10 +172,15 @@ void add_cut(CLI::App& program, Command& command) {
   auto options = std::make_shared<CutOptions>();
   app->add_option("file", options->file, "Recording; - is standard input")->required();
   add_copy_target(*app, options->target);
-  add_parsed_option(*app, "--from", options->from, parse_whole<int64_t>, "Earliest time of an event, us");
-  add_parsed_option(*app, "--to", options->to, parse_whole<int64_t>, "First time too late, us");
-  add_parsed_option(*app, "--events", options->events, parse_event_range,
-                    "A:B: the events number A to B-1 of those inside the sensor, counted from 0");
+  add_parsed_option(
+      *app, "--from", options->from, parse_time_point,
+      "Earliest time of events and triggers: us, or with a unit (1.5s, 20ms); with a + in front, "
+      "after the first event (+1.5s)");
+  add_parsed_option(*app, "--to", options->to, parse_time_point, "First time too late, in the same ways");
+  add_parsed_option(
+      *app, "--events", options->events, parse_event_range,
+      "A:B: the events number A to B-1 of those inside the sensor, counted from 0, and the triggers "
+      "before each of them");
   add_parsed_option(*app, "--roi", options->region, parse_region,
                     "X,Y,WIDTH,HEIGHT: a region of the sensor, which becomes the sensor of the output");
   add_read_options(*app, options->read);

@@ -69,7 +69,7 @@ void add_digest(CLI::App& program, Command& command) {
       program.add_subcommand("digest", "SHA-256 of the final state, image and events of a recording");
   auto options = std::make_shared<DigestOptions>();
   add_stream_options(*app, options->stream);
-  app->add_option("--dump", options->dump, "File for the hashed state, for scarf compare");
+  app->add_option("--dump", options->dump, "File to write the hashed state to, for scarf compare");
   app->callback([&command, options] { command.run = [options] { return digest(*options); }; });
 }
 

@@ -36,14 +36,15 @@ void add_frame_options(CLI::App& app, FrameOptions& o, const std::string& max_fr
                     "Column of the times, where the file of --at-times has several; default 1")
       ->group(when)
       ->needs(times);
-  add_parsed_option(app, "--times-unit", o.times_format.unit, parse_time_unit,
+  add_parsed_option(app, "--times-unit", o.times_format.exponent, parse_time_unit,
                     "Unit of these times: s, ms, us (default) or ns")
       ->group(when)
       ->needs(times);
   add_parsed_option(app, "--max-frames", o.max_frames, parse_positive, max_frames_help)
       ->default_str(text(o.max_frames))
       ->group(when);
-  app.add_option("--video-fps", o.video_fps, "Speed at which a video is shown, default 30");
+  add_parsed_option(app, "--video-fps", o.video_fps, parse_number,
+                    "Speed at which a video is shown, default 30");
 }
 
 Result<void> check_frames(const FrameOptions& options, const std::string& output, OutputKind kind) {

@@ -57,7 +57,7 @@ void add_frames(CLI::App& program, Command& command) {
       "frames", "The greyscale frames of a recording as frame_NNNNNN.png, and frames.csv with their times");
   auto options = std::make_shared<FramesOptions>();
   app->add_option("file", options->file, "Recording, or its folder")->required();
-  app->add_option("-o,--output", options->output, "Folder to write; frames of an earlier run are removed")
+  app->add_option("-o,--output", options->output, "Folder for PNG frames and their list frames.csv; frames of an earlier run are removed")
       ->required();
   add_read_options(*app, options->read);
   app->callback([&command, options] { command.run = [options] { return frames(*options); }; });

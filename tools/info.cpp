@@ -1,4 +1,6 @@
-// scarf info: what is in a recording.
+// scarf info: what is in recordings.
+#include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -11,12 +13,17 @@
 #include "tools/play.h"
 #include "tools/progress.h"
 #include "tools/read_options.h"
+#ifdef SCARF_PICTURES
+#include "tools/reprocess/job_list.h"
+#endif
 
 namespace scarf::tools {
 namespace {
 
+constexpr int kSchema = 1;  // docs/JSON.md
+
 struct InfoOptions {
-  std::string file;
+  std::vector<std::string> files;
   ReadOptions read;
   bool digest = false;
   bool json = false;
@@ -32,21 +39,30 @@ struct Fact {
 
 void print_table(const std::vector<Fact>& facts) {
   for (const Fact& fact : facts) {
-    const std::string value = fact.value.is_null()     ? "unknown"
-                              : fact.value.is_string() ? fact.value.get<std::string>()
-                                                       : fact.value.dump();
+    if (fact.key == "digest") {  // as scarf digest prints it
+      std::cout << "events " << fact.value.get<std::string>() << "\n";
+      continue;
+    }
+    std::string value = fact.value.is_null()     ? "unknown"
+                        : fact.value.is_string() ? fact.value.get<std::string>()
+                                                 : fact.value.dump();
+    // One line, whatever a hostile file or name had in it.
+    std::replace_if(
+        value.begin(), value.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }, ' ');
     std::cout << std::left << std::setw(19) << fact.name + ":" << value
               << (fact.value.is_null() ? "" : fact.unit) << "\n";
   }
 }
 
-constexpr int kSchema = 1;  // docs/JSON.md
-
-void print_json(const std::vector<Fact>& facts) {
-  nlohmann::ordered_json all = {{"schema", kSchema}};
+nlohmann::ordered_json json_of(const std::vector<Fact>& facts) {
+  nlohmann::ordered_json all;
   for (const Fact& fact : facts) all[fact.key] = fact.value;
+  return all;
+}
+
+void print_json(const nlohmann::ordered_json& json) {
   // Names of files and packets may hold any bytes.
-  std::cout << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 // Events per second, rounded; null if no time passes between the first and the last event.
@@ -55,8 +71,8 @@ nlohmann::ordered_json mean_rate(uint64_t events, int64_t duration) {
   return static_cast<uint64_t>(static_cast<double>(events) * 1e6 / static_cast<double>(duration) + 0.5);
 }
 
-Result<int> info(const InfoOptions& options) {
-  const auto source = open_events(options.file, options.read);
+Result<std::vector<Fact>> facts_of(const std::string& file, const InfoOptions& options) {
+  const auto source = open_events(file, options.read);
   if (!source) return source.error();
 
   uint64_t on = 0;
@@ -109,21 +125,148 @@ Result<int> info(const InfoOptions& options) {
     facts.push_back(
         {"first damage", "first_damage", text("byte ", report.damage->byte, ": ", report.damage->what)});
   }
-  if (options.json && options.digest) facts.push_back({"events digest", "digest", digest.hex()});
-  options.json ? print_json(facts) : print_table(facts);
-  if (options.digest && !options.json) std::cout << "events " << digest.hex() << "\n";
+  if (options.digest) facts.push_back({"events digest", "digest", digest.hex()});
+  return facts;
+}
+
+// One recording: nothing else is printed.
+Result<int> tell_one(const std::string& file, const InfoOptions& options) {
+  const auto facts = facts_of(file, options);
+  if (!facts) return facts.error();
+  if (options.json) {
+    nlohmann::ordered_json all = {{"schema", kSchema}};
+    all.update(json_of(*facts));
+    print_json(all);
+  } else {
+    print_table(*facts);
+  }
   return 0;
+}
+
+// Something of the command line, or of a folder there.
+struct Candidate {
+  std::string path;
+  bool named = false;        // on the command line: it must be a recording
+  std::string failure = {};  // why it cannot be looked at
+};
+
+struct Candidates {
+  std::vector<Candidate> files;
+  std::vector<std::string> skipped;  // what is neither a file nor a folder of recordings
+};
+
+bool is_folder_of_recordings(const std::string& path, const InfoOptions& options) {
+  std::error_code ignored;
+  if (path == "-" || !std::filesystem::is_directory(path, ignored)) return false;
+  ReadOptions read = options.read;
+  read.format.clear();  // says nothing of a folder
+  const auto source = open_events(path, read);
+  return !source && source.error().code == ErrorCode::unrecognised;
+}
+
+#ifdef SCARF_PICTURES
+// As scarf reprocess finds them.
+Result<void> list_folder(const std::string& folder, Candidates& candidates) {
+  reprocess::Recipe recipe = reprocess::default_recipe();
+  recipe.settings["output"] = {};
+  auto list = reprocess::list_jobs(folder, recipe, "");
+  if (!list) return list.error();
+  for (const reprocess::Job& job : list->jobs) candidates.files.push_back({job.path});
+  for (const reprocess::Outcome& o : list->settled) {
+    const std::string path = (std::filesystem::path(folder) / o.relative).string();
+    if (o.status == reprocess::Status::failed) {
+      candidates.files.push_back({path, false, o.message});
+    } else {
+      candidates.skipped.push_back(path);
+    }
+  }
+  return {};
+}
+#else
+Result<void> list_folder(const std::string& folder, Candidates&) {
+  return Error{
+      ErrorCode::illegal_parameter,
+      text(folder, " is a folder, which this build of scarf does not go through; name the files in it")};
+}
+#endif
+
+Result<Candidates> candidates_of(const InfoOptions& options) {
+  Candidates candidates;
+  for (const std::string& path : options.files) {
+    if (!is_folder_of_recordings(path, options)) {
+      candidates.files.push_back({path, true});
+    } else if (const auto r = list_folder(path, candidates); !r) {
+      candidates.files.push_back({path, true, r.error().message});
+    }
+  }
+  return candidates;
+}
+
+// Several recordings: a broken one does not keep the others from being told of.
+Result<int> tell_all(const InfoOptions& options) {
+  if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
+    return Error{ErrorCode::illegal_parameter, "standard input can be read once only; give one -"};
+  }
+  auto candidates = candidates_of(options);
+  if (!candidates) return candidates.error();
+  nlohmann::ordered_json recordings = nlohmann::ordered_json::array();
+  size_t told = 0;
+  size_t failed = 0;
+  std::string first_failure;
+  for (const Candidate& c : candidates->files) {
+    const auto facts = c.failure.empty() ? facts_of(c.path, options)
+                                         : Result<std::vector<Fact>>(Error{ErrorCode::io, c.failure});
+    if (!facts && !c.named && facts.error().code == ErrorCode::unrecognised) {
+      candidates->skipped.push_back(c.path);
+      continue;
+    }
+    if (!facts && failed++ == 0) first_failure = facts.error().message;
+    std::vector<Fact> all = {{"file", "file", c.path}};
+    if (facts) {
+      all.insert(all.end(), facts->begin(), facts->end());
+    } else {
+      all.push_back({"error", "error", facts.error().message});
+    }
+    if (options.json) {
+      recordings.push_back(json_of(all));
+    } else {
+      if (told > 0) std::cout << "\n";
+      print_table(all);
+      std::cout.flush();
+    }
+    ++told;
+  }
+  std::sort(candidates->skipped.begin(), candidates->skipped.end());
+  if (options.json) {
+    print_json({{"schema", kSchema}, {"recordings", recordings}, {"skipped", candidates->skipped}});
+  } else if (!candidates->skipped.empty()) {
+    std::cout << (told > 0 ? "\n" : "") << "skipped, as no recordings:\n";
+    for (const std::string& path : candidates->skipped) std::cout << "  " << path << "\n";
+  }
+  if (told == 0) return Error{ErrorCode::bad_input, "there are no recordings here"};
+  if (failed == 0) return 0;
+  return Error{ErrorCode::bad_input,
+               text(failed, " of ", told, " recordings cannot be read; the first: ", first_failure)};
+}
+
+Result<int> info(const InfoOptions& options) {
+  const bool one = options.files.size() == 1 && !is_folder_of_recordings(options.files.front(), options);
+  return one ? tell_one(options.files.front(), options) : tell_all(options);
 }
 
 }  // namespace
 
 void add_info(CLI::App& program, Command& command) {
-  CLI::App* app = program.add_subcommand("info", "Format, sensor, events and oddities of a recording");
+  CLI::App* app = program.add_subcommand("info", "Format, sensor, events and oddities of recordings");
   auto options = std::make_shared<InfoOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  app->add_option(
+         "files", options->files,
+         "Recordings, - for standard input, and folders of recordings; of those in folders, what is no "
+         "recording is left out")
+      ->required();
   add_read_options(*app, options->read);
   app->add_flag("--digest", options->digest, "Also the SHA-256 of the decoded events");
-  app->add_flag("--json", options->json, "As JSON");
+  app->add_flag("--json", options->json, "As JSON: an object, and of several recordings one with a list");
   app->callback([&command, options] { command.run = [options] { return info(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "core/time_unit.h"
 #include "io/decimal.h"
 #include "tools/parse.h"
 
@@ -153,28 +154,15 @@ std::string_view column_of(std::string_view line, uint64_t n) {
   }
 }
 
-std::optional<int64_t> microseconds(std::string_view word, TimesFormat::Unit unit) {
-  if (unit == TimesFormat::Unit::s) return microseconds_from_seconds(word);
-  if (word.find_first_of("eE") != word.npos) return std::nullopt;
-  const char* const exponent = unit == TimesFormat::Unit::ms   ? "e-3"
-                               : unit == TimesFormat::Unit::us ? "e-6"
-                                                               : "e-9";
-  return microseconds_from_seconds(text(word, exponent));
-}
-
 }  // namespace
 
 std::unique_ptr<Instants> at_most(std::unique_ptr<Instants> instants, uint64_t limit) {
   return std::make_unique<AtMost>(std::move(instants), limit);
 }
 
-Result<TimesFormat::Unit> parse_time_unit(const std::string& word) {
-  using Unit = TimesFormat::Unit;
-  for (const auto& [name, unit] : {std::pair{"s", Unit::s}, std::pair{"ms", Unit::ms},
-                                   std::pair{"us", Unit::us}, std::pair{"ns", Unit::ns}}) {
-    if (word == name) return unit;
-  }
-  return Error{ErrorCode::illegal_parameter, text("'", word, "' is no unit of time; legal is s, ms, us, ns")};
+Result<int> parse_time_unit(const std::string& word) {
+  if (const auto exponent = time_exponent(word)) return *exponent;
+  return Error{ErrorCode::illegal_parameter, text("'", word, "' is no unit of time; there are ", kTimeUnits)};
 }
 
 Result<FrameRate> parse_frame_rate(const std::string& word) {
@@ -219,7 +207,7 @@ Result<std::vector<int64_t>> read_times(const std::string& path, const TimesForm
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || line.starts_with('#')) continue;
     const std::string_view word = column_of(line, format.column);
-    const auto t = microseconds(word, format.unit);
+    const auto t = microseconds_from(word, format.exponent);
     if (!t) {
       return Error{ErrorCode::bad_input, text(path, " line ", number, ": '", word.substr(0, kMaxQuote),
                                               "' in column ", format.column, " is not a time")};

@@ -62,10 +62,10 @@ std::unique_ptr<Instants> at_most(std::unique_ptr<Instants> instants, uint64_t l
 /// Where the times stand in a text file, and what they count.
 struct TimesFormat {
   uint64_t column = 1;  ///< columns are separated by blanks, tabs or commas
-  enum class Unit { s, ms, us, ns } unit = Unit::us;
+  int exponent = 0;     ///< they count 10^exponent microseconds
 };
-/// "s", "ms", "us" or "ns". Errors: illegal_parameter.
-Result<TimesFormat::Unit> parse_time_unit(const std::string& word);
+/// "s", "ms", "us" or "ns" as TimesFormat::exponent. Errors: illegal_parameter.
+Result<int> parse_time_unit(const std::string& word);
 
 /// Times out of a text file, one per line and rising, rounded to microseconds. Empty lines and lines that
 /// begin with # are left out. Errors: io; bad_input, naming the line.

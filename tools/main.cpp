@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <span>
 #include <string>
 
+#include "tools/command_line.h"
 #include "tools/commands.h"
 
 namespace {
@@ -78,6 +80,9 @@ int main(int argc, char** argv) {
 #endif
 
   try {  // CLI11 and OpenCV throw
+    const auto checked =
+        scarf::tools::check_arguments(std::span(argv, static_cast<size_t>(argc)).subspan(argc > 0 ? 1 : 0));
+    if (!checked) return report(checked.error().message, kBadUsage);
     program.parse(argc, argv);
     if (command.run) return run(command);
     std::cout << program.help();

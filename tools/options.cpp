@@ -73,10 +73,11 @@ void add_representation_options(CLI::App& app, StreamOptions& o, const std::vect
                                "paper (default), light, event_driven, event_driven_flex or explicit"),
              grid);
   only_scarf(app.add_option("--cell", o.cell, "Pixels of a cell, default 9; WxH with preset explicit"), grid);
-  only_scarf(app.add_option("--ratio", o.ratio,
-                            "Receptive field ratio, default 1.2; paper and event_driven_flex only"),
+  only_scarf(add_parsed_option(app, "--ratio", o.ratio, parse_number,
+                               "Receptive field ratio, default 1.2; paper and event_driven_flex only"),
              grid);
-  only_scarf(app.add_option("--alpha", o.alpha, "Scale of the capacity, default 2.0"), grid);
+  only_scarf(add_parsed_option(app, "--alpha", o.alpha, parse_number, "Scale of the capacity, default 2.0"),
+             grid);
   const std::string with_explicit = "Patch grid of scarf, preset explicit";
   only_scarf(add_parsed_option(app, "--origin", o.origin, parse_comma, "X,Y: first pixel of the first cell"),
              with_explicit);
@@ -88,8 +89,8 @@ void add_representation_options(CLI::App& app, StreamOptions& o, const std::vect
   only_scarf(
       add_parsed_option(app, "--capacity", o.capacity, parse_whole<int32_t>, "Events that a patch holds"),
       with_explicit);
-  app.add_option("--accumulation", o.accumulation,
-                 "Brightness of one event, default 0.3 (scarf; time_window with --counts)")
+  add_parsed_option(app, "--accumulation", o.accumulation, parse_number,
+                    "Brightness of one event, default 0.3 (scarf; time_window with --counts)")
       ->each([&o](const std::string& word) { o.parameters["accumulation"] = word; });
   add_parameter_options(app, o);
   app.add_option_function<std::vector<std::string>>(

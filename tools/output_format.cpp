@@ -1,6 +1,8 @@
 #include "tools/output_format.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 #include "core/text.h"
@@ -13,18 +15,25 @@ struct Extension {
   std::string_view format;
 };
 
+constexpr std::string_view kRaw = ".raw";
+constexpr std::string_view kRawFormats[] = {"evt2", "evt21", "evt3", "evt4"};
+
 constexpr Extension kExtensions[] = {
-    {".raw", "evt3"},  {".dat", "dat"}, {".txt", "text"}, {".h5", "dsec"},
+    {kRaw, "evt3"},    {".dat", "dat"}, {".txt", "text"}, {".h5", "dsec"},
     {".hdf5", "dsec"}, {".csv", "csv"}, {".es", "es"},    {".npy", "npy"},
 };
 
 }  // namespace
 
-Result<std::string> output_format(const std::string& path, const std::string& given) {
+Result<std::string> output_format(const std::string& path, const std::string& given,
+                                  std::string_view original) {
   if (!given.empty()) return given;
   const std::string extension = std::filesystem::path(path).extension().string();
   for (const Extension& e : kExtensions) {
-    if (e.extension == extension) return std::string(e.format);
+    if (e.extension != extension) continue;
+    const bool same = extension == kRaw && std::find(std::begin(kRawFormats), std::end(kRawFormats),
+                                                     original) != std::end(kRawFormats);
+    return std::string(same ? original : e.format);
   }
   return Error{
       ErrorCode::illegal_parameter,

@@ -1,5 +1,8 @@
 #include "tools/parse.h"
 
+#include <cmath>
+
+#include "core/fields.h"
 #include "core/text.h"
 #include "scarf/geometry.h"
 
@@ -19,11 +22,26 @@ Result<Pair> parse_pair(const std::string& word, char separator, std::string_vie
 
 }  // namespace
 
+Result<double> parse_number(const std::string& word) {
+  const auto value = parse_integer<double>(word);
+  if (value && std::isfinite(*value)) return *value;
+  return Error{ErrorCode::illegal_parameter, text("'", word, "' is not a finite decimal number")};
+}
+
 Result<uint64_t> parse_positive(const std::string& word) {
   const auto value = parse_integer<uint64_t>(word);
   if (value && *value > 0) return *value;
   return Error{ErrorCode::illegal_parameter,
                text("'", word, "' is not a whole number from 1 to ", std::numeric_limits<uint64_t>::max())};
+}
+
+Result<int64_t> parse_time(const std::string& word) {
+  const bool negative = word.starts_with('-');
+  int64_t time = 0;
+  if (read_word(negative ? word.substr(1) : word, time)) return negative ? -time : time;
+  return Error{
+      ErrorCode::illegal_parameter,
+      text("'", word, "' is not a time of whole microseconds, such as 1500000, 1.5s, 20ms or 300us")};
 }
 
 Result<Pair> parse_by(const std::string& word) {

@@ -14,7 +14,7 @@
 
 namespace scarf::tools {
 
-/// The whole word as an integer; nullopt if it is anything else.
+/// The whole word as a number; nullopt if it is anything else.
 template <class T>
 std::optional<T> parse_integer(std::string_view word) {
   T value = 0;
@@ -31,8 +31,14 @@ Result<T> parse_whole(const std::string& word) {
   return Error{ErrorCode::illegal_parameter,
                text("'", word, "' is not a whole number from ", Limits::min(), " to ", Limits::max())};
 }
+/// The whole word as a finite decimal number. Errors: illegal_parameter.
+Result<double> parse_number(const std::string& word);
 /// A number of things, at least 1. Errors: illegal_parameter.
 Result<uint64_t> parse_positive(const std::string& word);
+
+/// A time as whole microseconds: a number of them, or a number with the unit us, ms or s ("1500", "1.5ms").
+/// Errors: illegal_parameter, also for a fraction of a microsecond.
+Result<int64_t> parse_time(const std::string& word);
 
 /// Two numbers of an option: one for each axis.
 struct Pair {

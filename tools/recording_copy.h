@@ -8,6 +8,7 @@
 #include <string>
 
 #include "scarf/io.h"
+#include "tools/trigger_copy.h"
 
 namespace scarf::tools {
 
@@ -19,27 +20,36 @@ struct CopyTarget {
 };
 
 struct Copied {
-  uint64_t events = 0;  ///< written
-  uint64_t left = 0;    ///< read, and not wanted
+  uint64_t events = 0;        ///< written
+  uint64_t left = 0;          ///< read, and not wanted
+  uint64_t triggers = 0;      ///< written
+  uint64_t header_lines = 0;  ///< written, of the camera's header
   std::string format;
   std::string digest;  ///< SHA-256 of the written events, as of scarf info --digest
+  std::string losses;  ///< what the copy does not have of the recording, a line each; empty: nothing is lost
 };
 
-/// Whether an event belongs to the copy; may change it.
-using Choose = std::function<bool(Event&)>;
+/// What belongs to the copy.
+struct Choose {
+  std::function<bool(Event&)> event;  ///< may change it
+  ChooseTrigger trigger;
+  /// Called with the first event of the recording, before the others; its error ends the copy.
+  std::function<Result<void>(const Event&)> begin = [](const Event&) { return Result<void>(); };
+};
 
-/// Writes the events of the source that `choose` wants, for a sensor of that size. Errors: whatever source
-/// and sink return; bad_input, if the copy was to be checked and is not what was written.
-Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorSize sensor,
+/// Writes the events of the original that `choose` wants, for a sensor of that size, and its triggers and the
+/// header of its camera, where the format has room for them. Errors: whatever source and sink return;
+/// bad_input, if the copy was to be checked and is not what was written.
+Result<Copied> copy_recording(const Original& original, const Choose& choose, SensorSize sensor,
                               const CopyTarget& target);
+
+/// A line about what was copied beside the events; empty: nothing was.
+std::string beside_events(const Copied& copied);
 
 /// The output, its format and --check, as options of a sub-command.
 void add_copy_target(CLI::App& app, CopyTarget& target);
 
 /// Where to say something about the copy: not where the copy itself goes to.
 std::ostream& remarks(const CopyTarget& target);
-
-/// What the copy does not have of the recording, a line each; empty: nothing is lost.
-std::string losses(const EventSource& source);
 
 }  // namespace scarf::tools

@@ -227,10 +227,10 @@ void add_render(CLI::App& program, Command& command) {
   auto options = std::make_shared<RenderOptions>();
   add_stream_options(*app, options->stream, {kAllRepresentations});
   add_decode_option(*app, options->decode_on_device);
-  app->add_option(
-         "-o,--output", options->output,
-         "A folder of PNG frames, a video (.mp4, .avi), an array of frames (.npy, .h5), or one image of the "
-         "end (.png, .pgm)")
+  app->add_option("-o,--output", options->output,
+                  "A folder of PNG frames with their list frames.csv; a video (.mp4, .avi); an array of "
+                  "frames (.npy with the "
+                  "list NAME.csv beside it, .h5); or one image of the end (.png, .pgm)")
       ->required();
   add_product_options(*app, options->products, "File for the sparse events of each frame (.h5, .npz)");
   add_frame_options(*app, options->frames, "Most frames that one gap in the recording may make due");

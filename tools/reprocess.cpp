@@ -219,7 +219,9 @@ void add_reprocess(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("reprocess", "One recipe for all recordings of a folder or list");
   auto options = std::make_shared<ReprocessOptions>();
   app->add_option("input", options->input, "Folder of recordings, or file that lists recordings")->required();
-  app->add_option("-o,--output", options->output, "Folder for results and records")->required();
+  app->add_option("-o,--output", options->output,
+                  "Folder for results, a record NAME.json beside those of each recording, and summary.json")
+      ->required();
   app->add_option("--recipe", options->recipe,
                   "TOML file: what is asked of the recordings; default: SCARF, one picture at the end");
   add_parsed_option(*app, "--jobs", options->jobs, parse_jobs,

@@ -98,21 +98,27 @@ void add_simulate(CLI::App& program, Command& command) {
   for (const auto name : scene_names()) scenes += (scenes.empty() ? "" : ", ") + std::string(name);
   app->add_option("--scene", o.scene, scenes)->capture_default_str();
   add_parsed_option(*app, "--sensor", o.sensor, parse_sensor, "Sensor size WxH [346x260]");
-  app->add_option("--duration", o.duration_s, "Seconds")->capture_default_str();
-  app->add_option("--threshold", o.threshold, "Change of log intensity per event")->capture_default_str();
-  app->add_option("--mismatch", o.mismatch, "Spread of the pixels' thresholds, relative")
-      ->capture_default_str();
-  add_parsed_option(*app, "--refractory", o.refractory_us, parse_whole<int64_t>,
-                    "Microseconds a pixel is blind after an event")
+  add_parsed_option(*app, "--duration", o.duration_s, parse_number, "Seconds")
+      ->default_str(text(o.duration_s));
+  add_parsed_option(*app, "--threshold", o.threshold, parse_number, "Change of log intensity per event")
+      ->default_str(text(o.threshold));
+  add_parsed_option(*app, "--mismatch", o.mismatch, parse_number,
+                    "Spread of the pixels' thresholds, relative")
+      ->default_str(text(o.mismatch));
+  add_parsed_option(*app, "--refractory", o.refractory_us, parse_time,
+                    "Time that a pixel is blind after an event: us, or with a unit (1ms)")
       ->default_str(text(o.refractory_us));
-  app->add_option("--noise", o.noise_hz, "Noise events per pixel and second")->capture_default_str();
+  add_parsed_option(*app, "--noise", o.noise_hz, parse_number, "Noise events per pixel and second")
+      ->default_str(text(o.noise_hz));
   add_parsed_option(*app, "--hot-pixels", o.hot_pixels, parse_whole<int32_t>,
                     "Number of pixels that fire all the time")
       ->default_str(text(o.hot_pixels));
   add_parsed_option(*app, "--seed", o.seed, parse_whole<uint64_t>, "Seed of the sensor's imperfections")
       ->default_str(text(o.seed));
-  app->add_option("--truth", options->truth, "Folder for PNG frames and masks of the true outlines");
-  app->add_option("--truth-rate", options->truth_rate, "Frames per second of --truth")->capture_default_str();
+  app->add_option("--truth", options->truth,
+                  "Folder for PNG frames and masks of the true outlines, and their list frames.csv");
+  add_parsed_option(*app, "--truth-rate", options->truth_rate, parse_number, "Frames per second of --truth")
+      ->default_str(text(options->truth_rate));
   app->callback([&command, options] { command.run = [options] { return simulate(*options); }; });
 }
 

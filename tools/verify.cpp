@@ -154,16 +154,16 @@ void add_verify(CLI::App& program, Command& command) {
   add_decode_option(*app, options->decode_on_device);
   add_parsed_option(*app, "--max-events", options->max_events, parse_whole<uint64_t>,
                     "Stop after so many events");
-  app->add_option("--failing", options->failing,
-                  "Text recording for the failing prefix, default NAME.failing.txt in the current folder");
+  app->add_option(
+      "--failing", options->failing,
+      "Text recording that is written of the events up to a difference; default NAME.failing.txt in the "
+      "current folder");
   const std::string plan = "How work is cut; never changes a result, 0 is chosen for the device";
   for (const auto& [name, number, help] :
        {std::tuple("--submission-events", &GpuOptions::submission_events, "Events per submission"),
         std::tuple("--chunk-events", &GpuOptions::chunk_events, "Events of scarf walked by one team"),
         std::tuple("--bands", &GpuOptions::bands, "Bands of rows of scarf's patches")}) {
-    app->add_option_function<uint32_t>(
-           name, [options, number = number](uint32_t value) { options->plan.*number = value; }, help)
-        ->group(plan);
+    add_parsed_option(*app, name, options->plan.*number, parse_whole<uint32_t>, help)->group(plan);
   }
   const std::map<std::string, GpuOptions::Placing> placings = {{"automatic", GpuOptions::Placing::automatic},
                                                                {"chunked", GpuOptions::Placing::chunked},

@@ -47,15 +47,6 @@ class FrameSource {
   PassedFrames passed_over_;
 };
 
-/// An edge at the camera's trigger input.
-struct Trigger {
-  int64_t t = 0;      ///< microseconds, on the clock of the events
-  uint16_t id = 0;    ///< the input
-  uint8_t value = 0;  ///< 1: rising, 0: falling
-
-  friend bool operator==(const Trigger&, const Trigger&) = default;
-};
-
 class TriggerSource {
  public:
   virtual ~TriggerSource() = default;
@@ -63,7 +54,8 @@ class TriggerSource {
   virtual Result<size_t> read(std::span<Trigger> out) = 0;
 };
 
-/// As open_events, for what accompanies the events. Errors: also bad_input, if the format has none.
+/// As open_events, for what accompanies the events. Errors: also unrecognised, if the format or the recording
+/// has none.
 Result<std::unique_ptr<FrameSource>> open_frames(const std::string& path, const ReadOptions& options = {});
 Result<std::unique_ptr<TriggerSource>> open_triggers(const std::string& path,
                                                      const ReadOptions& options = {});

@@ -54,6 +54,23 @@ struct ReadOptions {
   std::string yarp_time = {};
 };
 
+/// An edge at the camera's trigger input.
+struct Trigger {
+  int64_t t = 0;      ///< microseconds, on the clock of the events
+  uint16_t id = 0;    ///< the input
+  uint8_t value = 0;  ///< 1: rising, 0: falling
+
+  friend bool operator==(const Trigger&, const Trigger&) = default;
+};
+
+/// A line of the text header that the software of a camera wrote, such as `serial_number 00000042`.
+struct HeaderLine {
+  std::string key;
+  std::string value;
+
+  friend bool operator==(const HeaderLine&, const HeaderLine&) = default;
+};
+
 /// A stream of events out of a file. Memory use does not depend on the length of the file.
 class EventSource {
  public:
@@ -71,6 +88,10 @@ class EventSource {
   /// For who stops before the end: that error, if it is due now.
   virtual Result<void> unchanged() const { return {}; }
   virtual const ReadReport& report() const = 0;
+  /// What the recording's text header says of the camera and of how it was recorded, in its order; without
+  /// the lines that say how the file is to be read, which are format() and sensor(). Only Prophesee's formats
+  /// have such a header.
+  virtual std::span<const HeaderLine> header() const { return {}; }
   /// Bytes consumed so far and size of the file (0 if unknown, as for a pipe), for progress displays.
   virtual uint64_t bytes_read() const = 0;
   virtual uint64_t bytes_total() const = 0;
@@ -78,13 +99,15 @@ class EventSource {
 
 /// A format that scarf knows.
 struct FormatInfo {
-  std::string name;         ///< as ReadOptions::format and create_events take it
-  std::string title;        ///< for people
-  std::string missing;      ///< empty, or the library without which this build cannot read it
-  bool recognised = false;  ///< by content; else ReadOptions::format must name it
-  bool written = false;     ///< create_events can make it
-  bool frames = false;      ///< its recordings may hold frames ...
-  bool triggers = false;    ///< ... and triggers, see frames.h
+  std::string name;              ///< as ReadOptions::format and create_events take it
+  std::string title;             ///< for people
+  std::string missing;           ///< empty, or the library without which this build cannot read it
+  bool recognised = false;       ///< by content; else ReadOptions::format must name it
+  bool written = false;          ///< create_events can make it
+  bool frames = false;           ///< its recordings may hold frames ...
+  bool triggers = false;         ///< ... and triggers, see frames.h
+  bool writes_header = false;    ///< EventSink::write_header has room in it ...
+  bool writes_triggers = false;  ///< ... and EventSink::write_triggers
 };
 
 /// All formats, those that are not built in included.
@@ -100,10 +123,18 @@ Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const 
 /// The sensor size of a source, or the error that asks for `--geometry WxH`.
 Result<SensorSize> require_sensor(const EventSource& source, const std::string& path);
 
-/// A file that events are written to, in order.
+/// A file that events are written to, in order, and triggers among them.
 class EventSink {
  public:
   virtual ~EventSink() = default;
+  /// Adds lines to the file's header, as EventSource::header gives them: before the first event or trigger.
+  /// Errors: bad_input for a line that the format cannot hold, where nothing is added; illegal_parameter if
+  /// it is too late.
+  virtual Result<void> write_header(std::span<const HeaderLine> lines);
+  /// The same as write() for triggers. In formats that refuse back-steps no trigger may be older than the
+  /// event or trigger before it, and no event older than the trigger before it. Errors: io; bad_input for a
+  /// trigger that the format cannot hold, naming it. The triggers before it are written.
+  virtual Result<void> write_triggers(std::span<const Trigger> triggers);
   /// Errors: io; bad_input for an event that the format cannot hold, naming it (docs/FORMATS.md says what
   /// each can): the events before it are written. After out_of_memory nothing is written any more.
   virtual Result<void> write(std::span<const Event> events) = 0;

@@ -28,6 +28,7 @@ struct ReadReport {
   uint64_t jumps = 0;  ///< events later by more than kLongestStep than what back-steps are measured against
   int64_t largest_jump = 0;       ///< microseconds
   int64_t largest_jump_from = 0;  ///< the time in front of the first one that large, as it is in the file
+  int64_t time_shift = 0;         ///< microseconds subtracted from all times, by ReadOptions::time_shift
   uint64_t dropped = 0;           ///< events left out by TimePolicy::drop
   uint64_t gaps = 0;              ///< places where the file shows that data is missing
   uint64_t unknown_words = 0;     ///< words or lines that the format does not define

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/time_unit.h"
+
 namespace scarf {
 namespace {
 
@@ -19,10 +21,8 @@ bool read_number(const std::string& word, T& value) {
 
 // How many decimals of a time in this unit come to whole microseconds.
 std::optional<size_t> decimals_of(const std::string& unit) {
-  if (unit.empty() || unit == "us") return 0;
-  if (unit == "ms") return 3;
-  if (unit == "s") return 6;
-  return std::nullopt;
+  const auto exponent = unit.empty() ? 0 : time_exponent(unit);
+  return exponent && *exponent >= 0 ? std::optional(static_cast<size_t>(*exponent)) : std::nullopt;
 }
 
 }  // namespace

@@ -17,6 +17,11 @@ BufferedSource::BufferedSource(ByteReader input, std::string name, std::optional
                                const ReadOptions& options)
     : tally_(sensor, options), input_(std::move(input)), name_(std::move(name)) {}
 
+BufferedSource::BufferedSource(Input input, std::optional<SensorSize> sensor, const ReadOptions& options)
+    : BufferedSource(std::move(input.bytes), std::move(input.name), sensor, options) {
+  if (input.header) header_ = std::move(input.header->camera);
+}
+
 Result<size_t> BufferedSource::read(std::span<Event> out) {
   size_t count = 0;
   while (count < out.size()) {

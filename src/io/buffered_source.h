@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/byte_reader.h"
 #include "io/event_tally.h"
+#include "io/format.h"
 #include "scarf/io.h"
 
 namespace scarf {
@@ -18,7 +20,10 @@ class BufferedSource : public EventSource {
   /// `name` is what error messages call the file.
   BufferedSource(ByteReader input, std::string name, std::optional<SensorSize> sensor,
                  const ReadOptions& options);
+  /// The same, with the header of the input.
+  BufferedSource(Input input, std::optional<SensorSize> sensor, const ReadOptions& options);
 
+  std::span<const HeaderLine> header() const final { return header_; }
   std::optional<SensorSize> sensor() const final { return tally_.sensor(); }
   Result<size_t> read(std::span<Event> out) final;
   const ReadReport& report() const final { return tally_.report; }
@@ -42,6 +47,7 @@ class BufferedSource : public EventSource {
  private:
   ByteReader input_;
   std::string name_;
+  std::vector<HeaderLine> header_;
 };
 
 }  // namespace scarf

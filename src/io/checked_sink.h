@@ -1,7 +1,8 @@
-// What the writers of all formats share: the check of every event before it is written.
+// What the writers of all formats share: the check of everything before it is written.
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "io/byte_writer.h"
 #include "io/event_check.h"
@@ -13,10 +14,16 @@ class CheckedSink : public EventSink {
  public:
   CheckedSink(ByteWriter output, SensorSize sensor, const WriteLimits& limits);
 
+  Result<void> write_header(std::span<const HeaderLine> lines) final;
   Result<void> write(std::span<const Event> events) final;
+  Result<void> write_triggers(std::span<const Trigger> triggers) final;
   Result<void> finish() final;
 
  protected:
+  /// Appends what stands before everything else to output_, with lines that were checked.
+  virtual void encode_header(std::span<const HeaderLine> /*lines*/) {}
+  /// Appends a trigger that was checked to output_.
+  virtual void encode_trigger(const Trigger& /*trigger*/) {}
   /// Appends events that were checked to output_.
   virtual void encode(std::span<const Event> events) = 0;
   /// What is left to do before output_ is finished. Errors: io.
@@ -27,7 +34,11 @@ class CheckedSink : public EventSink {
   ByteWriter output_;
 
  private:
+  void begin();
+
   EventCheck check_;
+  std::vector<HeaderLine> header_;
+  bool begun_ = false;
 };
 
 }  // namespace scarf

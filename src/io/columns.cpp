@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/text.h"
+#include "core/time_unit.h"
 
 namespace scarf {
 namespace {
@@ -152,12 +153,9 @@ bool are_complete(const std::vector<Column>& columns) {
 
 Result<std::optional<int>> time_exponent_from(std::string_view unit) {
   if (unit.empty()) return std::optional<int>();
-  if (unit == "s") return std::optional(6);
-  if (unit == "ms") return std::optional(3);
-  if (unit == "us") return std::optional(0);
-  if (unit == "ns") return std::optional(-3);
+  if (const auto exponent = time_exponent(unit)) return exponent;
   return Error{ErrorCode::illegal_parameter,
-               text("the unit of times '", unit, "' is unknown; there are s, ms, us and ns")};
+               text("the unit of times '", unit, "' is unknown; there are ", kTimeUnits)};
 }
 
 }  // namespace scarf

@@ -36,7 +36,7 @@ constexpr Layout kVersion2 = {0x3FFF, 14, 0x3FFF, 28, 0xF};
 class DatReader final : public BufferedSource {
  public:
   DatReader(Input input, std::optional<SensorSize> sensor, const ReadOptions& options, const Layout& layout)
-      : BufferedSource(std::move(input.bytes), std::move(input.name), sensor, options), layout_(layout) {}
+      : BufferedSource(std::move(input), sensor, options), layout_(layout) {}
 
   std::string_view format() const override { return kName; }
 
@@ -120,7 +120,9 @@ class DatTriggers {
 Result<std::unique_ptr<TriggerSource>> open_dat_triggers(Input input, const ReadOptions& options) {
   const auto type = take_type(input);
   if (!type) return type.error();
-  if (*type != dat::kTrigger) return bad("the DAT file holds no triggers, records of type 14");
+  if (*type != dat::kTrigger) {
+    return Error{ErrorCode::unrecognised, "the DAT file holds no triggers, records of type 14"};
+  }
   return make_decoded_triggers(std::move(input), options,
                                TriggersByWord<uint64_t, DatTriggers>(DatTriggers()));
 }
@@ -132,6 +134,7 @@ const Format kDatFormat = {.name = kName,
                            .prophesee = true,
                            .open = open_dat,
                            .create = create_dat,
-                           .open_triggers = open_dat_triggers};
+                           .open_triggers = open_dat_triggers,
+                           .writes_header = true};
 
 }  // namespace scarf

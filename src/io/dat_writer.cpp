@@ -1,9 +1,9 @@
 // Writer of DAT, version 2.
 #include <utility>
 
-#include "core/text.h"
 #include "io/checked_sink.h"
 #include "io/dat.h"
+#include "io/prophesee_header.h"
 #include "io/writers.h"
 
 namespace scarf {
@@ -16,20 +16,30 @@ constexpr int32_t kLargestCoordinate = 0x3FFF;
 class DatWriter final : public CheckedSink {
  public:
   DatWriter(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"dat", 0, kTimeEnd, false, kLargestCoordinate}) {
-    output_.append(text("% Data file containing CD events.\n% Version 2\n% Height ", sensor.height,
-                        "\n% Width ", sensor.width, "\n% end\n"));
+      : CheckedSink(std::move(output), sensor,
+                    {.format = "dat",
+                     .t_min = 0,
+                     .t_end = kTimeEnd,
+                     .max_coordinate = kLargestCoordinate,
+                     .header = true}),
+        sensor_(sensor) {}
+
+ protected:
+  void encode_header(std::span<const HeaderLine> lines) override {
+    output_.append(prophesee_header_text("dat", sensor_, lines));
     output_.append_word(uint8_t{dat::kEventCd});
     output_.append_word(static_cast<uint8_t>(dat::kRecordBytes));
   }
 
- protected:
   void encode(std::span<const Event> events) override {
     for (const Event& e : events) {
       output_.append_word(static_cast<uint32_t>(e.t));
       output_.append_word(uint32_t{e.p} << 28 | uint32_t{e.y} << 14 | e.x);
     }
   }
+
+ private:
+  SensorSize sensor_;
 };
 
 }  // namespace

@@ -93,7 +93,9 @@ class EcdFrames final : public FrameSource {
 }  // namespace
 
 Result<std::unique_ptr<FrameSource>> open_ecd_frames(EcdFiles files) {
-  if (!files.has_images()) return bad("this recording has no images.txt, so no frames");
+  if (!files.has_images()) {
+    return Error{ErrorCode::unrecognised, "this recording has no images.txt, so no frames"};
+  }
   auto list = files.images();
   if (!list) return list.error();
   return std::unique_ptr<FrameSource>(std::make_unique<EcdFrames>(std::move(files), *std::move(list)));

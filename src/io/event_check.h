@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "scarf/event.h"
+#include "scarf/io.h"
 #include "scarf/result.h"
 
 namespace scarf {
@@ -20,6 +21,8 @@ struct WriteLimits {
   int64_t t_end = std::numeric_limits<int64_t>::max();  ///< ... and the first one too late
   bool back_steps = false;                              ///< whether a time may be before the one before it
   int32_t max_coordinate = std::numeric_limits<uint16_t>::max();
+  uint32_t trigger_inputs = 0;  ///< how many inputs of triggers it tells apart; 0: no room for triggers
+  bool header = false;          ///< whether there is room for lines of a camera's header
 };
 
 class EventCheck {
@@ -37,12 +40,20 @@ class EventCheck {
   /// What is said of the event behind those that were accepted.
   Error refusal(const std::string& path, const Event& event) const;
 
+  /// Accepts a trigger between the events before it and those behind it. Errors: bad_input, if the format
+  /// cannot hold it there.
+  Result<void> accept(const std::string& path, const Trigger& trigger);
+  /// Errors: bad_input, if the format has no room for the camera's header.
+  Result<void> accept_header(const std::string& path) const;
+
  private:
   std::string_view objection(const Event& event) const;
+  std::string_view objection(const Trigger& trigger) const;
 
   SensorSize sensor_;
   WriteLimits limits_;
   uint64_t count_ = 0;
+  uint64_t triggers_ = 0;
   int64_t previous_t_;
 };
 

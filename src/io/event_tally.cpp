@@ -50,7 +50,7 @@ size_t EventTally::keep_all(std::span<Event> events) {
     }
   }
   previous_ = events.back().t;
-  if (time_shift_ == TimeShift::first_event && !shift_) shift_ = events.front().t;
+  if (time_shift_ == TimeShift::first_event && !shift_) set_shift(events.front().t);
   if (shift_) {
     for (Event& e : events) e.t -= *shift_;
   }
@@ -77,7 +77,7 @@ size_t EventTally::keep_by_policy(std::span<Event> events) {
       ++report.outside;
       continue;
     }
-    if (time_shift_ == TimeShift::first_event && !shift_) shift_ = e.t;
+    if (time_shift_ == TimeShift::first_event && !shift_) set_shift(e.t);
     e.t -= shift_.value_or(0);
     events[kept++] = e;
   }
@@ -125,7 +125,12 @@ void EventTally::drop(int64_t t) {
 }
 
 void EventTally::set_first_high(int64_t t) {
-  if (time_shift_ == TimeShift::first_high && !shift_) shift_ = t;
+  if (time_shift_ == TimeShift::first_high && !shift_) set_shift(t);
+}
+
+void EventTally::set_shift(int64_t shift) {
+  shift_ = shift;
+  report.time_shift = shift;
 }
 
 void EventTally::leave_out_polarity(std::string_view unit, uint64_t place) {

@@ -53,6 +53,7 @@ class EventTally {
   size_t keep_all(std::span<Event> events);
   size_t keep_by_policy(std::span<Event> events);
   bool in_order(Event& event);
+  void set_shift(int64_t shift);
   void count_back_step(int64_t t);
   void count_jump(int64_t t);
 

@@ -52,4 +52,19 @@ class Clock {
   int64_t first_high_ = -1;
 };
 
+/// The clock of a reader, as the writer of its file keeps it.
+class HeldClock {
+ public:
+  /// Calls `emit` with the upper bits that must be written for the reader to come to time t (microseconds, at
+  /// least 0). Returns the lower ones, for the event.
+  template <class Emit>
+  uint32_t set(int64_t t, Emit emit) {
+    high_.carry_to(static_cast<uint64_t>(t) >> kTimeLowBits, emit);
+    return static_cast<uint32_t>(t & kTimeLowMask);
+  }
+
+ private:
+  HeldHigh<kTimeHighBits> high_;
+};
+
 }  // namespace scarf::evt2

@@ -30,7 +30,7 @@ class Evt21Reader final : public BufferedSource {
  public:
   Evt21Reader(Input input, std::optional<SensorSize> sensor, const ReadOptions& options, ByteOrder order,
               std::string damage)
-      : BufferedSource(std::move(input.bytes), std::move(input.name), sensor, options), order_(order) {
+      : BufferedSource(std::move(input), sensor, options), order_(order) {
     if (!damage.empty()) tally_.note_damage(0, std::move(damage));
   }
 
@@ -166,6 +166,8 @@ const Format kEvt21Format = {.name = kName,
                              .recognise = recognise_evt21,
                              .open = open_evt21,
                              .create = create_evt21,
-                             .open_triggers = open_evt21_triggers};
+                             .open_triggers = open_evt21_triggers,
+                             .writes_header = true,
+                             .writes_triggers = true};
 
 }  // namespace scarf

@@ -13,20 +13,31 @@ namespace {
 class Evt21Writer final : public CheckedSink {
  public:
   Evt21Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"evt21", 0, evt2::kTimeEnd, false, evt2::kCoordinateMask}) {
-    output_.append(prophesee_header_text("evt21", sensor));
-  }
+      : CheckedSink(std::move(output), sensor,
+                    {.format = "evt21",
+                     .t_min = 0,
+                     .t_end = evt2::kTimeEnd,
+                     .max_coordinate = evt2::kCoordinateMask,
+                     .trigger_inputs = evt2::kTriggerInputMask + 1,
+                     .header = true}),
+        sensor_(sensor) {}
 
  protected:
+  void encode_header(std::span<const HeaderLine> lines) override {
+    output_.append(prophesee_header_text("evt21", sensor_, lines));
+  }
+
+  void encode_trigger(const Trigger& trigger) override {
+    put(evt21::kTrigger, set_time(trigger.t) << 22 | uint32_t{trigger.id} << 8 | trigger.value, 0);
+  }
+
   void encode(std::span<const Event> events) override {
     while (!events.empty()) {
       const Event& e = events.front();
-      const auto t = static_cast<uint64_t>(e.t);
-      high_.carry_to(t >> evt2::kTimeLowBits, [&](uint32_t value) { put(evt21::kTimeHigh, value, 0); });
+      const uint32_t low = set_time(e.t);
       // Cameras' masks begin at multiples of their length.
       const auto base = static_cast<uint32_t>(e.x / evt21::kMaskLength * evt21::kMaskLength);
       const size_t run = pixel_run(events, base + evt21::kMaskLength);
-      const uint32_t low = t & evt2::kTimeLowMask;
       put(e.p ? evt21::kPositive : evt21::kNegative, low << 22 | base << 11 | e.y,
           pixel_bits(events.first(run), base));
       events = events.subspan(run);
@@ -34,11 +45,16 @@ class Evt21Writer final : public CheckedSink {
   }
 
  private:
+  uint32_t set_time(int64_t t) {
+    return clock_.set(t, [&](uint32_t high) { put(evt21::kTimeHigh, high, 0); });
+  }
+
   void put(evt21::Type type, uint32_t payload, uint32_t mask) {
     output_.append_word(uint64_t{type} << 60 | uint64_t{payload} << 32 | mask);
   }
 
-  HeldHigh<evt2::kTimeHighBits> high_;
+  SensorSize sensor_;
+  evt2::HeldClock clock_;
 };
 
 }  // namespace

@@ -82,8 +82,7 @@ BufferedSource::Decoded Evt2Reader::decode(std::span<const uint8_t> bytes, bool 
 Result<std::unique_ptr<EventSource>> open_evt2(Input input, const ReadOptions& options) {
   const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
   if (!sensor) return sensor.error();
-  return std::unique_ptr<EventSource>(
-      std::make_unique<Evt2Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
+  return std::unique_ptr<EventSource>(std::make_unique<Evt2Reader>(std::move(input), *sensor, options));
 }
 
 class Evt2Triggers {
@@ -155,6 +154,8 @@ const Format kEvt2Format = {.name = kName,
                             .recognise = recognise_evt2,
                             .open = open_evt2,
                             .create = create_evt2,
-                            .open_triggers = open_evt2_triggers};
+                            .open_triggers = open_evt2_triggers,
+                            .writes_header = true,
+                            .writes_triggers = true};
 
 }  // namespace scarf

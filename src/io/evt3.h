@@ -18,7 +18,7 @@ enum Type : uint32_t {
   kTimeLow = 0x6,     // the time's bits 11..0
   kContinued4 = 0x7,
   kTimeHigh = 0x8,  // the time's bits 23..12
-  kTrigger = 0xA,
+  kTrigger = 0xA,   // input b11..8, value b0
   kImu = 0xD,
   kOthers = 0xE,
   kContinued12 = 0xF,
@@ -28,6 +28,7 @@ inline constexpr uint32_t kFillerWord = 0x9999;  // sent between packets by some
 inline constexpr int kTimeLowBits = 12;
 inline constexpr int kTimeHighBits = 12;
 inline constexpr uint32_t kCoordinateMask = 0x7FF;
+inline constexpr uint32_t kTriggerInputMask = 0xF;
 inline constexpr uint32_t kPayloadMask = 0xFFF;
 
 using TimeHigh = HighCounter<kTimeHighBits>;

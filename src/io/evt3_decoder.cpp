@@ -145,7 +145,8 @@ TriggerDecoder::Decoded TriggerDecoder::decode(std::span<const uint8_t> bytes, s
     if (type == kTimeLow) clock_.set_low(word & kPayloadMask);
     if (type == kTimeHigh) clock_.set_high(word & kPayloadMask);
     if (type == kTrigger) {
-      out[count++] = {clock_.time(), static_cast<uint16_t>(word >> 8 & 0xF), static_cast<uint8_t>(word & 1)};
+      out[count++] = {clock_.time(), static_cast<uint16_t>(word >> 8 & kTriggerInputMask),
+                      static_cast<uint8_t>(word & 1)};
     }
   }
   return {at, count};

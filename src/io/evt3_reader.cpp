@@ -43,8 +43,7 @@ BufferedSource::Decoded Evt3Reader::decode(std::span<const uint8_t> bytes, bool 
 Result<std::unique_ptr<EventSource>> open_evt3(Input input, const ReadOptions& options) {
   const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
   if (!sensor) return sensor.error();
-  return std::unique_ptr<EventSource>(
-      std::make_unique<Evt3Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
+  return std::unique_ptr<EventSource>(std::make_unique<Evt3Reader>(std::move(input), *sensor, options));
 }
 
 Result<std::unique_ptr<TriggerSource>> open_evt3_triggers(Input input, const ReadOptions& options) {
@@ -90,6 +89,8 @@ const Format kEvt3Format = {.name = kName,
                             .recognise = recognise_evt3,
                             .open = open_evt3,
                             .create = create_evt3,
-                            .open_triggers = open_evt3_triggers};
+                            .open_triggers = open_evt3_triggers,
+                            .writes_header = true,
+                            .writes_triggers = true};
 
 }  // namespace scarf

@@ -21,13 +21,27 @@ constexpr size_t kFewestInVector = 5;  // of 4 words
 class Evt3Writer final : public CheckedSink {
  public:
   Evt3Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"evt3", 0, kTimeEnd, false, evt3::kCoordinateMask}),
+      : CheckedSink(std::move(output), sensor,
+                    {.format = "evt3",
+                     .t_min = 0,
+                     .t_end = kTimeEnd,
+                     .max_coordinate = evt3::kCoordinateMask,
+                     .trigger_inputs = evt3::kTriggerInputMask + 1,
+                     .header = true}),
+        sensor_(sensor),
         last_base_(std::min<int32_t>(sensor.width, evt3::kCoordinateMask + 1) -
-                   static_cast<int32_t>(kVectorLength)) {
-    output_.append(prophesee_header_text("evt3", sensor));
-  }
+                   static_cast<int32_t>(kVectorLength)) {}
 
  protected:
+  void encode_header(std::span<const HeaderLine> lines) override {
+    output_.append(prophesee_header_text("evt3", sensor_, lines));
+  }
+
+  void encode_trigger(const Trigger& trigger) override {
+    set_time(static_cast<uint64_t>(trigger.t));
+    put(evt3::kTrigger, uint32_t{trigger.id} << 8 | trigger.value);
+  }
+
   void encode(std::span<const Event> events) override {
     while (!events.empty()) {
       const Event& first = events.front();
@@ -88,6 +102,7 @@ class Evt3Writer final : public CheckedSink {
     output_.append_word(static_cast<uint16_t>(uint32_t{type} << 12 | payload));
   }
 
+  SensorSize sensor_;
   int32_t last_base_;  // the rightmost one with the whole vector inside the sensor; negative if there is none
   // What a reader holds after the words so far.
   std::optional<uint64_t> high_;  // its TIME_HIGH counter, wraps included

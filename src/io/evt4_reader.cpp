@@ -84,8 +84,7 @@ BufferedSource::Decoded Evt4Reader::decode(std::span<const uint8_t> bytes, bool 
 Result<std::unique_ptr<EventSource>> open_evt4(Input input, const ReadOptions& options) {
   const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
   if (!sensor) return sensor.error();
-  return std::unique_ptr<EventSource>(
-      std::make_unique<Evt4Reader>(std::move(input.bytes), std::move(input.name), *sensor, options));
+  return std::unique_ptr<EventSource>(std::make_unique<Evt4Reader>(std::move(input), *sensor, options));
 }
 
 class Evt4Triggers {
@@ -152,6 +151,8 @@ const Format kEvt4Format = {.name = kName,
                             .recognise = recognise_evt4,
                             .open = open_evt4,
                             .create = create_evt4,
-                            .open_triggers = open_evt4_triggers};
+                            .open_triggers = open_evt4_triggers,
+                            .writes_header = true,
+                            .writes_triggers = true};
 
 }  // namespace scarf

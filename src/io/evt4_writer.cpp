@@ -15,17 +15,28 @@ constexpr size_t kFewestInMask = 3;  // of 2 words
 class Evt4Writer final : public CheckedSink {
  public:
   Evt4Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor, {"evt4", 0, evt2::kTimeEnd, false, evt2::kCoordinateMask}) {
-    output_.append(prophesee_header_text("evt4", sensor));
-  }
+      : CheckedSink(std::move(output), sensor,
+                    {.format = "evt4",
+                     .t_min = 0,
+                     .t_end = evt2::kTimeEnd,
+                     .max_coordinate = evt2::kCoordinateMask,
+                     .trigger_inputs = evt2::kTriggerInputMask + 1,
+                     .header = true}),
+        sensor_(sensor) {}
 
  protected:
+  void encode_header(std::span<const HeaderLine> lines) override {
+    output_.append(prophesee_header_text("evt4", sensor_, lines));
+  }
+
+  void encode_trigger(const Trigger& trigger) override {
+    put(evt4::kTrigger, set_time(trigger.t) << 22 | uint32_t{trigger.id} << 8 | trigger.value);
+  }
+
   void encode(std::span<const Event> events) override {
     while (!events.empty()) {
       const Event& e = events.front();
-      const auto t = static_cast<uint64_t>(e.t);
-      high_.carry_to(t >> evt2::kTimeLowBits, [&](uint32_t value) { put(evt4::kTimeHigh, value); });
-      const auto low = static_cast<uint32_t>(t & evt2::kTimeLowMask);
+      const uint32_t low = set_time(e.t);
       const uint32_t fields = low << 22 | uint32_t{e.x} << 11 | e.y;
       const size_t run = pixel_run(events, e.x + uint32_t{evt4::kMaskLength});
       if (run >= kFewestInMask) {
@@ -40,9 +51,14 @@ class Evt4Writer final : public CheckedSink {
   }
 
  private:
+  uint32_t set_time(int64_t t) {
+    return clock_.set(t, [&](uint32_t high) { put(evt4::kTimeHigh, high); });
+  }
+
   void put(evt4::Type type, uint32_t payload) { output_.append_word(uint32_t{type} << 28 | payload); }
 
-  HeldHigh<evt2::kTimeHighBits> high_;
+  SensorSize sensor_;
+  evt2::HeldClock clock_;
 };
 
 }  // namespace

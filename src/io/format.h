@@ -65,6 +65,8 @@ struct Format {
   Result<std::unique_ptr<EventSink>> (*create)(const std::string& path, SensorSize sensor) = nullptr;
   Result<std::unique_ptr<FrameSource>> (*open_frames)(Input, const ReadOptions&) = nullptr;
   Result<std::unique_ptr<TriggerSource>> (*open_triggers)(Input, const ReadOptions&) = nullptr;
+  bool writes_header = false;    ///< what `create` makes has room for EventSink::write_header ...
+  bool writes_triggers = false;  ///< ... and for write_triggers
 };
 
 /// All of them, in the order in which they are asked whether they recognise a recording.

@@ -75,9 +75,18 @@ std::vector<FormatInfo> formats() {
   for (const Format* format : kFormats) {
     list.push_back({std::string(format->name), std::string(format->title), std::string(format->missing),
                     format->recognise != nullptr || format->prophesee, format->create != nullptr,
-                    format->open_frames != nullptr, format->open_triggers != nullptr});
+                    format->open_frames != nullptr, format->open_triggers != nullptr, format->writes_header,
+                    format->writes_triggers});
   }
   return list;
+}
+
+Result<void> EventSink::write_header(std::span<const HeaderLine>) {
+  return Error{ErrorCode::bad_input, "the format has no room for the header of a camera"};
+}
+
+Result<void> EventSink::write_triggers(std::span<const Trigger>) {
+  return Error{ErrorCode::bad_input, "the format has no room for triggers"};
 }
 
 namespace {

@@ -97,6 +97,12 @@ class GuardedSink final : public EventSink {
   Result<void> write(std::span<const Event> events) override {
     return guard_.run([&] { return sink_->write(events); });
   }
+  Result<void> write_header(std::span<const HeaderLine> lines) override {
+    return guard_.run([&] { return sink_->write_header(lines); });
+  }
+  Result<void> write_triggers(std::span<const Trigger> triggers) override {
+    return guard_.run([&] { return sink_->write_triggers(triggers); });
+  }
   Result<void> finish() override {
     return guard_.run([&] { return sink_->finish(); });
   }

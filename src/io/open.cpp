@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 
 #include "core/text.h"
@@ -67,7 +68,7 @@ Result<std::unique_ptr<Source>> open_as(const Format& format, Input input, const
                                             format.missing, "; install it and build again")};
   }
   if (format.*Kind<Source>::kOpen == nullptr) {
-    return Error{ErrorCode::bad_input,
+    return Error{ErrorCode::unrecognised,
                  text(format.title, " has no ", Kind<Source>::kWhat, " that scarf reads")};
   }
   if (auto r = check_options(format, options); !r) return r.error();
@@ -144,8 +145,10 @@ Result<std::unique_ptr<Source>> open_any(Input input, const ReadOptions& options
   auto source = open_as<Source>(**format, std::move(input), options);
   if (source) return source;
   Error error = named(name, source.error());
-  // Who names the format says that this is a recording.
-  if (!options.format.empty() && error.code == ErrorCode::unrecognised) error.code = ErrorCode::bad_input;
+  // Who names the format says that this is a recording, though not that it has frames or triggers.
+  constexpr bool kEvents = std::is_same_v<Source, EventSource>;
+  if (kEvents && !options.format.empty() && error.code == ErrorCode::unrecognised)
+    error.code = ErrorCode::bad_input;
   return error;
 }
 

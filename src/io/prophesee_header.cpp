@@ -14,6 +14,15 @@ namespace scarf {
 namespace {
 
 constexpr size_t kMaxLine = 4096;
+constexpr size_t kMaxHeader = size_t{1} << 20;
+
+// What says how the file is to be read. The rest is about the camera.
+constexpr std::string_view kReadingKeys[] = {"evt",  "format",  "geometry", "endianness", "end",
+                                             "Data", "Version", "Width",    "Height"};
+
+bool is_reading_key(std::string_view key) {
+  return std::find(std::begin(kReadingKeys), std::end(kReadingKeys), key) != std::end(kReadingKeys);
+}
 
 constexpr std::string_view kEvt2 = "evt2";
 constexpr std::string_view kEvt3 = "evt3";
@@ -205,7 +214,9 @@ Result<size_t> line_length(ByteReader& input) {
 
 Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input) {
   Keys keys;
+  std::vector<HeaderLine> camera;
   bool any = false;
+  const uint64_t begin = input.consumed();
   for (bool end = false; !end;) {
     const auto length = line_length(input);
     if (!length) return length.error();
@@ -216,8 +227,12 @@ Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input) 
     end = line == "end";
     const std::string_view key = take(line, ' ');
     keys.set(key, line);
+    if (!is_reading_key(key)) camera.push_back({std::string(key), std::string(line)});
     any = true;
     input.skip(*length);
+    if (input.consumed() - begin > kMaxHeader) {
+      return bad(text("the header is longer than ", kMaxHeader, " bytes"));
+    }
   }
   if (!any) return std::optional<PropheseeHeader>();
   // Behind the recording's own header come places in it, which would pass as words.
@@ -226,19 +241,39 @@ Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input) 
                  "this is an index that OpenEB keeps beside a recording (NAME.raw.tmp_index), no recording; "
                  "name the recording itself"};
   }
-  const auto header = interpret(keys);
+  auto header = interpret(keys);
   if (!header) return header.error();
-  return std::optional(*header);
+  header->camera = std::move(camera);
+  return std::optional(*std::move(header));
 }
 
-std::string prophesee_header_text(std::string_view format, SensorSize sensor) {
-  const auto* const word_format = std::find_if(std::begin(kWordFormats), std::end(kWordFormats),
-                                               [&](const WordFormat& f) { return f.name == format; });
-  // Without it readers guess EVT2.1's byte order from the camera.
-  const std::string_view byte_order = format == "evt21" ? ";endianness=little" : "";
-  return text("% evt ", word_format->version, "\n% format ", word_format->key, byte_order,
-              ";height=", sensor.height, ";width=", sensor.width, "\n% geometry ", size_text(sensor),
-              "\n% end\n");
+bool is_camera_line(const HeaderLine& line) {
+  const auto is_text = [](const std::string& s) { return std::none_of(s.begin(), s.end(), is_control); };
+  // The marks around the text and the end of the line belong to it.
+  constexpr size_t kMarks = 4;
+  return !is_reading_key(line.key) && line.key.find(' ') == line.key.npos && is_text(line.key) &&
+         is_text(line.value) && line.key.size() + line.value.size() + kMarks <= kMaxLine;
+}
+
+std::string prophesee_header_text(std::string_view format, SensorSize sensor,
+                                  std::span<const HeaderLine> camera) {
+  std::string lines;
+  if (format == kDat) {
+    lines = text("% Data file containing CD events.\n% Version 2\n% Height ", sensor.height, "\n% Width ",
+                 sensor.width, "\n");
+  } else {
+    const auto* const word_format = std::find_if(std::begin(kWordFormats), std::end(kWordFormats),
+                                                 [&](const WordFormat& f) { return f.name == format; });
+    // Without it readers guess EVT2.1's byte order from the camera.
+    const std::string_view byte_order = format == "evt21" ? ";endianness=little" : "";
+    lines =
+        text("% evt ", word_format->version, "\n% format ", word_format->key, byte_order,
+             ";height=", sensor.height, ";width=", sensor.width, "\n% geometry ", size_text(sensor), "\n");
+  }
+  for (const HeaderLine& line : camera) {
+    lines += text("% ", line.key, line.value.empty() ? "" : " ", line.value, "\n");
+  }
+  return lines + "% end\n";
 }
 
 }  // namespace scarf

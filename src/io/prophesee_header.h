@@ -3,12 +3,15 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/byte_reader.h"
 #include "io/evt21.h"
 #include "scarf/event.h"
+#include "scarf/io.h"
 
 namespace scarf {
 
@@ -17,6 +20,7 @@ struct PropheseeHeader {
   std::optional<SensorSize> sensor;
   evt21::ByteOrder byte_order = evt21::ByteOrder::little;  ///< of EVT2.1, as said or as the camera implies
   std::optional<int64_t> dat_version;
+  std::vector<HeaderLine> camera;  ///< the lines that say none of the above
 };
 
 /// Reads the header and leaves `input` at the first word behind it; nullopt, and nothing skipped, if there is
@@ -24,7 +28,11 @@ struct PropheseeHeader {
 /// end.
 Result<std::optional<PropheseeHeader>> read_prophesee_header(ByteReader& input);
 
-/// A header that names both. `format`: one of the word formats.
-std::string prophesee_header_text(std::string_view format, SensorSize sensor);
+/// A header that names both, and holds the lines of `camera`. `format`: one of the word formats, or "dat".
+std::string prophesee_header_text(std::string_view format, SensorSize sensor,
+                                  std::span<const HeaderLine> camera);
+
+/// Whether the line can be one of PropheseeHeader::camera, and be read again.
+bool is_camera_line(const HeaderLine& line);
 
 }  // namespace scarf

@@ -274,6 +274,53 @@ TEST(Writers, AFileAppearsWhenItIsFinished) {
   std::filesystem::remove(link);
 }
 
+TEST(Writers, TheHeaderOfTheCameraIsReadAndWritten) {
+  const std::string lines =
+      "% date 2024-02-03 04:05:06\n% serial_number 00000042\n% system_ID 49\n% plugin_name\n% a b  c\n";
+  const TemporaryFile original(bytes_of("% evt 2.0\n" + lines +
+                                        "% format EVT2;height=480;width=640\n% Data x\n% geometry 640x480\n"
+                                        "% endianness little\n% end\n"));
+  const auto source = *open_events(original.path());
+  const std::vector<HeaderLine> header(source->header().begin(), source->header().end());
+  EXPECT_THAT(header, ElementsAre(HeaderLine{"date", "2024-02-03 04:05:06"},
+                                  HeaderLine{"serial_number", "00000042"}, HeaderLine{"system_ID", "49"},
+                                  HeaderLine{"plugin_name", ""}, HeaderLine{"a", "b  c"}));
+  const std::vector<Event> events = {{65, 3, 2, 1}};
+  for (const FormatInfo& format : formats()) {
+    if (!format.written) continue;
+    const TemporaryFile file;
+    auto sink = *create_events(file.path(), format.name, {640, 480});
+    const auto added = sink->write_header(header);
+    EXPECT_EQ(added.ok(), format.writes_header) << format.name;
+    ASSERT_TRUE(sink->write(events).ok());
+    const auto late = sink->write_header(header);
+    EXPECT_FALSE(late.ok());
+    ASSERT_TRUE(sink->finish().ok());
+    if (!format.writes_header) continue;
+    EXPECT_EQ(late.error().code, ErrorCode::illegal_parameter);
+    const Bytes content = file.content();
+    EXPECT_THAT(std::string(content.begin(), content.end()), HasSubstr("\n" + lines + "% end\n"))
+        << format.name;
+    const auto again = *open_events(file.path());
+    EXPECT_EQ(again->format(), format.name);
+    EXPECT_EQ(again->sensor(), (SensorSize{640, 480}));
+    EXPECT_TRUE(std::vector<HeaderLine>(again->header().begin(), again->header().end()) == header);
+  }
+}
+
+TEST(Writers, TheHeaderTakesNoLineThatWouldBeReadOtherwise) {
+  for (const HeaderLine& line :
+       {HeaderLine{"evt", "4.0"}, HeaderLine{"end", ""}, HeaderLine{"geometry", "1x1"},
+        HeaderLine{"format", "EVT4"}, HeaderLine{"Width", "3"}, HeaderLine{"a b", "c"},
+        HeaderLine{"a", "b\n% end"}, HeaderLine{"a\n", "b"}, HeaderLine{"a", std::string(4096, 'x')}}) {
+    const TemporaryFile file;
+    auto sink = *create_events(file.path(), "evt3", {640, 480});
+    const auto added = sink->write_header({&line, 1});
+    ASSERT_FALSE(added.ok()) << line.key;
+    EXPECT_EQ(added.error().code, ErrorCode::bad_input);
+  }
+}
+
 TEST(Writers, AFinishedSinkRefusesMore) {
   const TemporaryFile file;
   auto sink = create_events(file.path(), "text", {640, 480});

@@ -91,5 +91,23 @@ TEST_F(RecipeFile, SideFilesStandBesideTheRecording) {
   EXPECT_EQ(side_file("images.txt", folder_.path("")), folder_.path("images.txt"));
 }
 
+TEST(Recipes, EmptyValuesAreErrorsOfEverySetting) {
+  const auto options = *parse_settings(default_recipe().settings);
+  size_t settings = 0;
+  for (const CLI::Option* option : options->app.get_options()) {
+    const std::string name = option->get_name().substr(2);
+    ++settings;
+    for (const std::string value : {"", " ", "\t"}) {
+      Settings changed = default_recipe().settings;
+      changed[name] = {value};
+      const auto parsed = parse_settings(changed);
+      ASSERT_FALSE(parsed.ok()) << name;
+      EXPECT_EQ(parsed.error().code, ErrorCode::illegal_parameter) << name;
+      EXPECT_EQ(parsed.error().message, name + " is empty; give it a value, or leave it out");
+    }
+  }
+  EXPECT_GE(settings, 40u);
+}
+
 }  // namespace
 }  // namespace scarf::tools::reprocess

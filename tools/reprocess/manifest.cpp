@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "tools/command_line.h"
 
 namespace scarf::tools::reprocess {
 namespace {
@@ -74,6 +75,7 @@ Result<Listed> entry_of(const std::string& line, bool json) {
   if (const auto as = entry->settings.extract(std::string(kAs))) {
     if (as.mapped().size() != 1) return in_line("as is not one path");
     entry->as = as.mapped().front();
+    if (is_blank(entry->as)) return in_line("as is empty; give it a path, or leave it out");
   }
   return entry;
 }

@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "scarf/encoding.h"
+#include "tools/command_line.h"
 #include "tools/event_list_writer.h"
 #include "tools/read_options.h"
 #include "tools/reprocess/result_place.h"
@@ -139,7 +140,10 @@ Result<std::unique_ptr<Options>> parse_settings(const Settings& settings) {
     if (app.get_option_no_throw("--" + name) == nullptr) {
       return illegal(text("'", name, "' is no setting; there are ", known_settings(app)));
     }
-    for (const std::string& word : words) arguments.push_back(text("--", name, "=", word));
+    for (const std::string& word : words) {
+      if (is_blank(word)) return illegal(text(name, " is empty; give it a value, or leave it out"));
+      arguments.push_back(text("--", name, "=", word));
+    }
   }
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
   try {
