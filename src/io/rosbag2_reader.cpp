@@ -36,7 +36,12 @@ class TemporaryFile {
   static Result<TemporaryFile> create() {
     std::error_code failure;
     const fs::path folder = fs::temp_directory_path(failure);
-    std::string path = (failure ? fs::path("/tmp") : folder) / "scarf-XXXXXX";
+    if (failure) {
+      return Error{ErrorCode::io,
+                   text("there is no folder for temporary files, to unpack the bag into (TMPDIR): ",
+                        failure.message())};
+    }
+    std::string path = folder / "scarf-XXXXXX";
     const int fd = mkostemp(path.data(), O_CLOEXEC);
     if (fd < 0) return failed(path, "create");
     return TemporaryFile(std::move(path), fd);

@@ -36,6 +36,35 @@ TEST_F(Program, FramesOfARecording) {
             "index,t_us,exposure_begin_us,exposure_end_us\n0,200,200,200\n");
 }
 
+// A packet of AEDAT 3.1 with one frame, which says that it has so many columns and rows.
+std::string frame_packet(int32_t width, int32_t height) {
+  std::string bytes("\2\0\0\0", 4);
+  const auto put = [&bytes](int32_t word) {
+    for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift & 0xFF);
+  };
+  constexpr int32_t kPixels = 4;
+  for (const int32_t word : {36 + 2 * kPixels, 4, 0, 1, 1, 1}) put(word);  // of one record
+  for (const int32_t word : {3, 10, 40, 20, 30, width, height, 0, 0}) put(word);
+  return bytes + std::string("\0\1\0\2\0\3\0\4", 2 * kPixels);
+}
+
+TEST_F(Program, FramesThatArePassedOverAreTold) {
+  const std::string header = "#!AER-DAT3.1\r\n#Source 0: DVS128\r\n#!END-HEADER\r\n";
+  write_text(path("some.aedat"), header + frame_packet(99, 99) + frame_packet(2, 2));
+  const Outcome some = run("frames " + path("some.aedat") + " -o " + path("pictures"));
+  EXPECT_EQ(some.exit_code, 0) << some.err;
+  EXPECT_THAT(some.out, HasSubstr("lost: 1 frames"));
+  EXPECT_THAT(some.out, HasSubstr("byte " + std::to_string(header.size())));
+  EXPECT_EQ(content_of(path("pictures/frames.csv")),
+            "index,t_us,exposure_begin_us,exposure_end_us\n0,25,20,30\n");
+  EXPECT_EQ(run("frames --strict " + path("some.aedat") + " -o " + path("pictures")).exit_code, 1);
+
+  write_text(path("none.aedat"), header + frame_packet(99, 99));
+  const Outcome none = run("frames " + path("none.aedat") + " -o " + path("pictures"));
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("no frame was read"));
+}
+
 TEST_F(Program, FramesOfAFormatWithoutThemAreAnError) {
   const Outcome outcome = run("frames " + recording(10) + " -o " + path("pictures"));
   EXPECT_EQ(outcome.exit_code, 1);
