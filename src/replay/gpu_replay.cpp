@@ -1,10 +1,9 @@
 // Replay on a device behind the public interface: groups are gathered, submitted, and handed over.
 #include <array>
-#include <map>
-#include <string>
 
 #include "core/batch_check.h"
 #include "gpu/on_device.h"
+#include "gpu/stage_times.h"
 #include "replay/pipeline.h"
 #include "scarf/replay.h"
 #include "vulkan/commands.h"
@@ -68,11 +67,17 @@ class GpuReplay final : public Replay {
       if (auto r = usable(); !r) return r.error();
       const auto batch = check_batch(events, geometry_.sensor(), t_first_);
       if (!batch) return batch.error();
-      auto taken = whole([&]() -> Result<void> {
+      const auto taken = whole([&]() -> Result<void> {
         t_first_ = batch->t_first;
+        const uint32_t most = pipeline_->plan().group_events;
         for (const Event& e : events) {
           if (!geometry_.sensor().contains(e)) continue;
-          if (auto r = take(e); !r) return r;
+          if (open().events == most) {
+            if (auto r = close_group(); !r) return r;
+          }
+          Turn& turn = open();
+          turn.group->events.template mapped_as<uint32_t>()[turn.events++] = e.x | uint32_t{e.y} << 16;
+          ++events_;
         }
         return {};
       });
@@ -102,11 +107,7 @@ class GpuReplay final : public Replay {
     });
   }
 
-  std::vector<StageTime> stage_times() const override {
-    std::vector<StageTime> times;
-    for (const auto& [stage, time] : stage_times_) times.push_back(time);
-    return times;
-  }
+  std::vector<StageTime> stage_times() const override { return stage_times_.all(); }
 
   uint64_t memory_bytes() const override { return pipeline_->memory_bytes(); }
 
@@ -145,17 +146,6 @@ class GpuReplay final : public Replay {
     });
   }
 
-  // An event inside the sensor.
-  Result<void> take(const Event& e) {
-    if (open().events == pipeline_->plan().group_events) {
-      if (auto r = close_group(); !r) return r;
-    }
-    Turn& turn = open();
-    turn.group->events.template mapped_as<uint32_t>()[turn.events++] = e.x | uint32_t{e.y} << 16;
-    ++events_;
-    return {};
-  }
-
   // Submits the open group, if there is anything in it, and opens the other turn: the frames of the group
   // that was there are handed over.
   Result<void> close_group() {
@@ -178,7 +168,7 @@ class GpuReplay final : public Replay {
   Result<void> hand_over(Turn& turn) {
     if (turn.events == 0 && turn.frames.empty()) return {};
     if (auto r = turn.commands.wait(); !r) return r;
-    collect_times(turn.commands);
+    stage_times_.collect(turn.commands);
     const ReplayPlan& plan = pipeline_->plan();
     const auto* pictures = turn.group->pictures.template mapped_as<uint8_t>();
     for (size_t i = 0; i < turn.frames.size(); ++i) {
@@ -193,18 +183,6 @@ class GpuReplay final : public Replay {
     return {};
   }
 
-  // A failure here loses a measurement, not a result.
-  void collect_times(Commands& commands) {
-    const auto spans = commands.take_times();
-    if (!spans) return;
-    for (const vulkan::StageSpan& span : *spans) {
-      StageTime& time = stage_times_[std::string(span.stage)];
-      time.stage = span.stage;
-      time.dispatches += 1;
-      time.nanoseconds += span.nanoseconds;
-    }
-  }
-
   std::shared_ptr<GpuContext> context_;  // first, so that the device outlives all that follows
   vulkan::Device& device_;
   const Geometry geometry_;
@@ -217,7 +195,7 @@ class GpuReplay final : public Replay {
   uint64_t frames_ = 0;  // handed over
   std::optional<Error> failure_;
   bool stopped_ = false;
-  std::map<std::string, StageTime> stage_times_;
+  StageTimes stage_times_;
 };
 
 template <class T>
