@@ -23,7 +23,7 @@ Result<int> convert(const ConvertOptions& options) {
   const auto sensor = require_sensor(**source, options.file);
   if (!sensor) return sensor.error();
   const auto copied = copy_recording(
-      **source, [](Event&) { return true; }, *sensor, options.target);
+      **source, options.file, [](Event&) { return true; }, *sensor, options.target);
   if (!copied) return copied.error();
   const ReadReport& report = (*source)->report();
   std::string changed;

@@ -104,7 +104,8 @@ Result<int> cut(const CutOptions& options) {
     e.y = static_cast<uint16_t>(y);
     return true;
   };
-  const auto copied = copy_recording(**source, choose, {region.width, region.height}, options.target);
+  const auto copied =
+      copy_recording(**source, options.file, choose, {region.width, region.height}, options.target);
   if (!copied) return copied.error();
   remarks(options.target) << text("cut ", copied->events, " events out of ", copied->events + copied->left,
                                   " from ", (*source)->format(), " to ", copied->format,

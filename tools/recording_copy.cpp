@@ -9,6 +9,7 @@
 #include "tools/output_format.h"
 #include "tools/play.h"
 #include "tools/progress.h"
+#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
@@ -27,8 +28,8 @@ Result<std::string> digest_of(const std::string& path, const std::string& format
 
 }  // namespace
 
-Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorSize sensor,
-                              const CopyTarget& target) {
+Result<Copied> copy_recording(EventSource& source, const std::string& path, const Choose& choose,
+                              SensorSize sensor, const CopyTarget& target) {
   const auto format = output_format(target.path, target.format);
   if (!format) return format.error();
   if (target.check && target.path == "-") {
@@ -62,6 +63,11 @@ Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorS
     };
     if (const auto played = play(source, {}, {.events = counted}); !played) return played.error();
   }
+  if (auto r = require_events(path, source.report(), target.allow_empty); !r) return r.error();
+  if (copied.events == 0 && !target.allow_empty) {
+    return Error{ErrorCode::bad_input, text("none of the ", copied.left, " events of ", path,
+                                            " was asked for; if that is right, give --allow-empty")};
+  }
   if (auto r = (*sink)->finish(); !r) return r.error();
   copied.digest = digest.hex();
   if (target.check) {
@@ -83,6 +89,7 @@ void add_copy_target(CLI::App& app, CopyTarget& target) {
   app.add_option("--output-format", target.format,
                  "Format of the output, where its name does not tell; see scarf formats");
   app.add_flag("--check", target.check, "Read the output again and compare it with what was written");
+  add_allow_empty(app, target.allow_empty);
 }
 
 std::ostream& remarks(const CopyTarget& target) {
@@ -97,6 +104,7 @@ std::string losses(const EventSource& source) {
   };
   line(report.outside, "events outside the sensor");
   line(report.dropped, "events older than one before them");
+  line(report.undefined_polarities, "events whose polarity the format does not define");
   line(report.unknown_words, "words or lines that the format does not define");
   line(report.truncated_bytes, "bytes at the end that make no whole word, line or packet");
   line(report.damages, "damaged places");

@@ -14,8 +14,9 @@ namespace scarf::tools {
 /// Where a copy goes to.
 struct CopyTarget {
   std::string path;
-  std::string format;  ///< empty: by the path's extension
-  bool check = false;  ///< read the copy again and compare it with what was written
+  std::string format;        ///< empty: by the path's extension
+  bool check = false;        ///< read the copy again and compare it with what was written
+  bool allow_empty = false;  ///< a copy without an event is no failure
 };
 
 struct Copied {
@@ -28,12 +29,13 @@ struct Copied {
 /// Whether an event belongs to the copy; may change it.
 using Choose = std::function<bool(Event&)>;
 
-/// Writes the events of the source that `choose` wants, for a sensor of that size. Errors: whatever source
-/// and sink return; bad_input, if the copy was to be checked and is not what was written.
-Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorSize sensor,
-                              const CopyTarget& target);
+/// Writes the events of the source, which messages call `path`, that `choose` wants, for a sensor of that
+/// size. Errors: whatever source and sink return; bad_input, if there is no event, or if the copy was to be
+/// checked and is not what was written.
+Result<Copied> copy_recording(EventSource& source, const std::string& path, const Choose& choose,
+                              SensorSize sensor, const CopyTarget& target);
 
-/// The output, its format and --check, as options of a sub-command.
+/// The output, its format, --check and --allow-empty, as options of a sub-command.
 void add_copy_target(CLI::App& app, CopyTarget& target);
 
 /// Where to say something about the copy: not where the copy itself goes to.
