@@ -8,6 +8,7 @@
 #include "tools/options.h"
 #include "tools/play.h"
 #include "tools/progress.h"
+#include "tools/read_options.h"
 #include "tools/state_dump.h"
 
 namespace scarf::tools {
@@ -37,6 +38,10 @@ Result<int> digest(const DigestOptions& options) {
     };
     const auto played = play(*recording->source, {.batches = options.stream.batches}, {.events = take});
     if (!played) return played.error();
+  }
+  if (auto r = require_events(options.stream.file, recording->source->report(), options.stream.allow_empty);
+      !r) {
+    return r.error();
   }
   const auto state = representation.state().wait();
   if (!state) return state.error();

@@ -17,7 +17,7 @@ Error illegal(const std::string& message) {
 
 }  // namespace
 
-void add_frame_options(CLI::App& app, FrameOptions& o, const std::string& max_frames_help) {
+void add_frame_options(CLI::App& app, FrameOptions& o) {
   const std::string when = "When";
   CLI::Option* rate = add_parsed_option(app, "--rate", o.rate, parse_frame_rate,
                                         "Frames per second of recorded time, default 30")
@@ -40,7 +40,10 @@ void add_frame_options(CLI::App& app, FrameOptions& o, const std::string& max_fr
                     "Unit of these times: s, ms, us (default) or ns")
       ->group(when)
       ->needs(times);
-  add_parsed_option(app, "--max-frames", o.max_frames, parse_positive, max_frames_help)
+  add_parsed_option(
+      app, "--max-frames", o.max_frames, parse_positive,
+      "Most frames of --rate in a row without an event between them, default 10000: a longer jump "
+      "in time ends the job")
       ->default_str(text(o.max_frames))
       ->group(when);
   add_parsed_option(app, "--video-fps", o.video_fps, parse_number,

@@ -18,7 +18,7 @@ struct FrameOptions {
   std::string at;          ///< "end" or empty
   std::string times_file;  ///< empty: none
   TimesFormat times_format;
-  uint64_t max_frames = 100'000;
+  uint64_t max_frames = 10'000;  ///< in a row without an event between them, of a frame clock
   std::optional<double> video_fps;
 
   /// Whether several frames are asked for.
@@ -26,8 +26,7 @@ struct FrameOptions {
   double shown_fps() const { return video_fps.value_or(30); }
 };
 
-/// `max_frames_help`: what the program limits by --max-frames.
-void add_frame_options(CLI::App& app, FrameOptions& options, const std::string& max_frames_help);
+void add_frame_options(CLI::App& app, FrameOptions& options);
 
 /// Whether the options fit an output. Errors: illegal_parameter, naming the option to change.
 Result<void> check_frames(const FrameOptions& options, const std::string& output, OutputKind kind);

@@ -39,16 +39,31 @@ class FolderWriter final : public FrameWriter {
  public:
   explicit FolderWriter(fs::path folder) : folder_(std::move(folder)) {}
 
-  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
-    list_ += list_line(index_, frame);
-    return write_picture((folder_ / numbered_picture(kFrame, index_++)).string(), picture);
+  // Pictures without their list are no result.
+  ~FolderWriter() override {
+    std::error_code ignored;
+    for (uint64_t i = 0; !finished_ && i < index_; ++i) fs::remove(picture_path(i), ignored);
   }
 
-  Result<void> finish() override { return write_file((folder_ / kPictureList).string(), list_); }
+  Result<void> write(const Frame& frame, const cv::Mat& picture) override {
+    list_ += list_line(index_, frame);
+    return write_picture(picture_path(index_++), picture);
+  }
+
+  Result<void> finish() override {
+    const auto written = write_file((folder_ / kPictureList).string(), list_);
+    finished_ = written.ok();
+    return written;
+  }
 
  private:
+  std::string picture_path(uint64_t index) const {
+    return (folder_ / numbered_picture(kFrame, index)).string();
+  }
+
   const fs::path folder_;
   uint64_t index_ = 0;
+  bool finished_ = false;
   std::string list_{kListHeader};
 };
 

@@ -114,13 +114,19 @@ Result<std::vector<Fact>> facts_of(const std::string& file, const InfoOptions& o
       {"outside", "outside", report.outside},
       {"back-steps", "back_steps", report.back_steps},
       {"largest back-step", "largest_back_step_us", report.largest_back_step, " us"},
+      {"jumps", "jumps", report.jumps},
+      {"largest jump", "largest_jump_us", report.largest_jump, " us"},
       {"dropped", "dropped", report.dropped},
       {"gaps", "gaps", report.gaps},
       {"unknown words", "unknown_words", report.unknown_words},
       {"skipped records", "skipped", report.skipped},
+      {"odd polarities", "undefined_polarities", report.undefined_polarities},
       {"truncated bytes", "truncated_bytes", report.truncated_bytes},
       {"damaged places", "damages", report.damages},
   };
+  if (report.jumps > 0) {
+    facts.push_back({"jump from", "largest_jump_from_us", report.largest_jump_from, " us"});
+  }
   if (report.damage) {
     facts.push_back(
         {"first damage", "first_damage", text("byte ", report.damage->byte, ": ", report.damage->what)});

@@ -21,7 +21,7 @@ __extension__ using Int128 = __int128;  // holds any number of frames times any 
 
 class AtRate final : public Instants {
  public:
-  AtRate(FrameRate rate, uint64_t max_frames) : rate_(rate), max_frames_(max_frames) {}
+  AtRate(FrameRate rate, uint64_t max_empty) : rate_(rate), max_empty_(max_empty) {}
 
   Result<void> due(std::span<const Event> events, const TakeFrame& take) override {
     if (!t_first_ && !events.empty()) {
@@ -30,15 +30,12 @@ class AtRate final : public Instants {
     }
     for (const Event& e : events) {
       // Told before the first of them is taken: one corrupt time must not fill a disk.
-      if (e.t >= next_time_ && e.t >= time_of(Int128{next_} + max_frames_)) {
-        return Error{ErrorCode::bad_input,
-                     text("event ", events_, " (t ", e.t, ") makes more than ", max_frames_,
-                          " frames due at once; if its time is right, raise --max-frames or lower --rate")};
-      }
+      if (e.t >= next_time_ && e.t >= time_of(Int128{next_} + max_empty_)) return flood(e);
       while (e.t >= next_time_) {
         if (auto r = take({static_cast<int64_t>(next_time_), events_}); !r) return r;
         next_time_ = time_of(++next_);
       }
+      previous_ = e.t;
       ++events_;
     }
     return {};
@@ -47,15 +44,24 @@ class AtRate final : public Instants {
   Result<void> due_at_end(const TakeFrame&) override { return {}; }
 
  private:
+  Error flood(const Event& e) const {
+    return {ErrorCode::bad_input,
+            text("event ", events_, " (t ", e.t, " us) follows one at ", previous_,
+                 " us, which makes more than ", max_empty_,
+                 " frames in a row without an event; if that is right, raise --max-frames, else cut the "
+                 "recording with `scarf cut`, or lower --rate")};
+  }
+
   Int128 time_of(Int128 frame) const {
     return *t_first_ + frame * kMicroseconds * rate_.denominator / rate_.numerator;
   }
 
   const FrameRate rate_;
-  const uint64_t max_frames_;
+  const uint64_t max_empty_;
   std::optional<int64_t> t_first_;
   uint64_t next_ = 1;
   Int128 next_time_ = 0;
+  int64_t previous_ = 0;  // the time of the event in front
   uint64_t events_ = 0;
 };
 
@@ -119,30 +125,6 @@ class AtEnd final : public Instants {
   Frame last_;
 };
 
-class AtMost final : public Instants {
- public:
-  AtMost(std::unique_ptr<Instants> inner, uint64_t limit) : inner_(std::move(inner)), limit_(limit) {}
-
-  Result<void> due(std::span<const Event> events, const TakeFrame& take) override {
-    return inner_->due(events, counted(take));
-  }
-  Result<void> due_at_end(const TakeFrame& take) override { return inner_->due_at_end(counted(take)); }
-
- private:
-  TakeFrame counted(const TakeFrame& take) {
-    return [this, &take](const Frame& frame) -> Result<void> {
-      if (frames_++ < limit_) return take(frame);
-      return Error{ErrorCode::bad_input,
-                   text("more than ", limit_, " frames are due, the next one at t ", frame.t,
-                        "; if that is right, raise --max-frames, or ask for fewer frames")};
-    };
-  }
-
-  const std::unique_ptr<Instants> inner_;
-  const uint64_t limit_;
-  uint64_t frames_ = 0;
-};
-
 // The n-th column of a line, the first being 1; empty if there are fewer.
 std::string_view column_of(std::string_view line, uint64_t n) {
   constexpr std::string_view kSeparators = " \t,";
@@ -155,10 +137,6 @@ std::string_view column_of(std::string_view line, uint64_t n) {
 }
 
 }  // namespace
-
-std::unique_ptr<Instants> at_most(std::unique_ptr<Instants> instants, uint64_t limit) {
-  return std::make_unique<AtMost>(std::move(instants), limit);
-}
 
 Result<int> parse_time_unit(const std::string& word) {
   if (const auto exponent = time_exponent(word)) return *exponent;
@@ -182,8 +160,8 @@ Result<FrameRate> parse_frame_rate(const std::string& word) {
   return rate;
 }
 
-std::unique_ptr<Instants> frames_at_rate(FrameRate rate, uint64_t max_frames_of_one_event) {
-  return std::make_unique<AtRate>(rate, max_frames_of_one_event);
+std::unique_ptr<Instants> frames_at_rate(FrameRate rate, uint64_t max_empty) {
+  return std::make_unique<AtRate>(rate, max_empty);
 }
 
 std::unique_ptr<Instants> frames_every(uint64_t n) {

@@ -47,17 +47,15 @@ struct FrameRate {
 /// A decimal number with up to 6 decimals, 0.000001 to 1000000. Errors: illegal_parameter.
 Result<FrameRate> parse_frame_rate(const std::string& word);
 
-/// The frame clock T_i = t_first + floor(i * 1e6 / rate), i = 1, 2, ...
-std::unique_ptr<Instants> frames_at_rate(FrameRate rate, uint64_t max_frames_of_one_event);
+/// The frame clock T_i = t_first + floor(i * 1e6 / rate), i = 1, 2, ... An event that makes more than
+/// `max_empty` frames due at once, between which there is no event, ends it.
+std::unique_ptr<Instants> frames_at_rate(FrameRate rate, uint64_t max_empty);
 /// A frame after every n events, n >= 1.
 std::unique_ptr<Instants> frames_every(uint64_t n);
 /// The state at each of the given times (ascending). Times after the last event show the final state.
 std::unique_ptr<Instants> frames_at_times(std::vector<int64_t> times);
 /// One frame: the final state.
 std::unique_ptr<Instants> frame_at_end();
-
-/// The frames of `instants`, `limit` of them at most. Errors: bad_input instead of the frame beyond.
-std::unique_ptr<Instants> at_most(std::unique_ptr<Instants> instants, uint64_t limit);
 
 /// Where the times stand in a text file, and what they count.
 struct TimesFormat {

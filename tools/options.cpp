@@ -110,6 +110,7 @@ void add_representation_options(CLI::App& app, StreamOptions& o, const std::vect
 void add_stream_options(CLI::App& app, StreamOptions& o, const std::vector<std::string>& more) {
   app.add_option("file", o.file, "Recording; - is standard input")->required();
   add_read_options(app, o.read);
+  add_allow_empty(app, o.allow_empty);
   add_representation_options(app, o, more);
   add_work_options(app, o);
 }

@@ -19,7 +19,8 @@ namespace scarf::tools {
 
 struct StreamOptions {
   std::string file;
-  ReadOptions read;  ///< how the recording is read
+  ReadOptions read;          ///< how the recording is read
+  bool allow_empty = false;  ///< a recording without an event is no failure
 
   std::string representation = "scarf";
   std::map<std::string, std::string> parameters;  ///< of the representation, as parse_parameters takes them

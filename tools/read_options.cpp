@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "core/text.h"
 #include "tools/options.h"
 
 namespace scarf::tools {
@@ -50,6 +51,26 @@ void add_read_options(CLI::App& app, ReadOptions& o) {
   app.add_option("--yarp-time", o.yarp_time, "YARP packets without times of events: packet, spread")
       ->check(CLI::IsMember({"packet", "spread"}))
       ->group(group);
+}
+
+void add_allow_empty(CLI::App& app, bool& allow_empty) {
+  app.add_flag("--allow-empty", allow_empty, "A recording without an event is no failure")->group("Reading");
+}
+
+Result<void> require_events(const std::string& path, const ReadReport& report, bool allow_empty) {
+  if (report.events > 0 || allow_empty) return {};
+  std::string met;
+  const auto add = [&met](uint64_t count, std::string_view what) {
+    if (count > 0) met += text(met.empty() ? " but " : ", ", count, " ", what);
+  };
+  add(report.outside, "events outside the sensor");
+  add(report.dropped, "events older than one before them");
+  add(report.undefined_polarities, "events of undefined polarity");
+  add(report.unknown_words, "unknown words or lines");
+  add(report.truncated_bytes, "bytes at the end that make no whole word, line or packet");
+  add(report.damages, "damaged places");
+  return Error{ErrorCode::bad_input, text(path == "-" ? "standard input" : path, ": not one event was read",
+                                          met, "; if that is right, give --allow-empty")};
 }
 
 }  // namespace scarf::tools

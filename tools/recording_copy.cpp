@@ -11,6 +11,7 @@
 #include "tools/output_format.h"
 #include "tools/play.h"
 #include "tools/progress.h"
+#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
@@ -35,6 +36,7 @@ std::string losses(const EventSource& source) {
   };
   line(report.outside, "events outside the sensor");
   line(report.dropped, "events older than one before them");
+  line(report.undefined_polarities, "events whose polarity the format does not define");
   line(report.unknown_words, "words or lines that the format does not define");
   line(report.skipped, "records of other things than events, or marked as not valid");
   line(report.truncated_bytes, "bytes at the end that make no whole word, line or packet");
@@ -158,6 +160,11 @@ Result<Copied> copy_recording(const Original& original, const Choose& choose, Se
     };
     if (const auto played = play(source, {}, {.events = counted}); !played) return played.error();
   }
+  if (auto r = require_events(original.path, source.report(), target.allow_empty); !r) return r.error();
+  if (copied.events == 0 && !target.allow_empty) {
+    return Error{ErrorCode::bad_input, text("none of the ", copied.left, " events of ", original.path,
+                                            " was asked for; if that is right, give --allow-empty")};
+  }
   if (auto r = triggers->finish(); !r) return r.error();
   if (auto r = (*sink)->finish(); !r) return r.error();
   copied.digest = digest.hex();
@@ -186,6 +193,7 @@ void add_copy_target(CLI::App& app, CopyTarget& target) {
   app.add_option("--output-format", target.format,
                  "Format of the output, where its name does not tell; see scarf formats");
   app.add_flag("--check", target.check, "Read the output again and compare it with what was written");
+  add_allow_empty(app, target.allow_empty);
 }
 
 std::ostream& remarks(const CopyTarget& target) {

@@ -15,8 +15,9 @@ namespace scarf::tools {
 /// Where a copy goes to.
 struct CopyTarget {
   std::string path;
-  std::string format;  ///< empty: by the path's extension
-  bool check = false;  ///< read the copy again and compare it with what was written
+  std::string format;        ///< empty: by the path's extension
+  bool check = false;        ///< read the copy again and compare it with what was written
+  bool allow_empty = false;  ///< a copy without an event is no failure
 };
 
 struct Copied {
@@ -39,14 +40,14 @@ struct Choose {
 
 /// Writes the events of the original that `choose` wants, for a sensor of that size, and its triggers and the
 /// header of its camera, where the format has room for them. Errors: whatever source and sink return;
-/// bad_input, if the copy was to be checked and is not what was written.
+/// bad_input, if there is no event, or if the copy was to be checked and is not what was written.
 Result<Copied> copy_recording(const Original& original, const Choose& choose, SensorSize sensor,
                               const CopyTarget& target);
 
 /// A line about what was copied beside the events; empty: nothing was.
 std::string beside_events(const Copied& copied);
 
-/// The output, its format and --check, as options of a sub-command.
+/// The output, its format, --check and --allow-empty, as options of a sub-command.
 void add_copy_target(CLI::App& app, CopyTarget& target);
 
 /// Where to say something about the copy: not where the copy itself goes to.

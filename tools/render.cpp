@@ -15,6 +15,7 @@
 #include "tools/product_options.h"
 #include "tools/products.h"
 #include "tools/progress.h"
+#include "tools/read_options.h"
 #include "tools/renderer.h"
 
 namespace scarf::tools {
@@ -203,6 +204,10 @@ Result<int> render(const RenderOptions& options) {
             : play(*recording->source, {.batches = options.stream.batches, .instants = instants->get()},
                    {.events = push, .frame = ask});
     if (!played) return played.error();
+    ReadReport report = recording->source->report();
+    if (options.decode_on_device) report.events = *played;
+    if (auto r = require_events(options.stream.file, report, options.stream.allow_empty); !r)
+      return r.error();
     if (auto r = (*renderer)->finish(); !r) return r.error();
     events = *played;
     seconds = progress.seconds();
@@ -233,7 +238,7 @@ void add_render(CLI::App& program, Command& command) {
                   "list NAME.csv beside it, .h5); or one image of the end (.png, .pgm)")
       ->required();
   add_product_options(*app, options->products, "File for the sparse events of each frame (.h5, .npz)");
-  add_frame_options(*app, options->frames, "Most frames that one gap in the recording may make due");
+  add_frame_options(*app, options->frames);
   app->add_option_function<int64_t>(
          "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },
          "Beside each frame: the events of the last MS milliseconds, default 33")

@@ -10,6 +10,7 @@
 #include "tools/commands.h"
 #include "tools/files.h"
 #include "tools/frame_writer.h"
+#include "tools/read_options.h"
 #include "tools/reprocess/job_list.h"
 #include "tools/reprocess/mpi_crew.h"
 #include "tools/reprocess/recipe.h"
@@ -39,6 +40,7 @@ struct ReprocessOptions {
   bool keep_going = false;
   bool json = false;
   std::optional<uint64_t> max_frames;
+  bool allow_empty = false;
   std::optional<double> verify;
   std::optional<uint64_t> seed;
   StreamOptions work;  // batches and device
@@ -70,6 +72,9 @@ Result<JobList> share_of(const ReprocessOptions& options, const Recipe& recipe, 
   if (!list) return list;
   std::erase_if(list->jobs, [&](const Job& job) { return !shard.takes(job.relative); });
   std::erase_if(list->settled, [&](const Outcome& o) { return !shard.takes(o.relative); });
+  for (Job& job : list->jobs) {
+    if (options.allow_empty) job.settings["allow-empty"] = {"true"};
+  }
   if (options.max_frames) {
     for (Job& job : list->jobs) job.settings["max-frames"] = {text(*options.max_frames)};
   }
@@ -230,8 +235,11 @@ void add_reprocess(CLI::App& program, Command& command) {
                     "i/n: the i-th of n parts; default: as Slurm arrays and MPI launchers say");
   app->add_flag("--resume", options->resume, "Keep what an earlier run has finished");
   app->add_flag("--keep-going", options->keep_going, "Go on after a recording that failed");
-  add_parsed_option(*app, "--max-frames", options->max_frames, parse_positive,
-                    "Most frames of a recording, default 100000; instead of what the recipe says");
+  add_parsed_option(
+      *app, "--max-frames", options->max_frames, parse_positive,
+      "Most frames of a rate in a row without an event between them, default 10000; instead of what "
+      "the recipe says");
+  add_allow_empty(*app, options->allow_empty);
   add_parsed_option(*app, "--verify", options->verify, parse_share,
                     "Compute this share of the recordings, 0 to 1, again on the CPU reference and compare");
   add_parsed_option(*app, "--seed", options->seed, parse_whole<uint64_t>,

@@ -15,16 +15,23 @@ struct TriggersOptions {
   std::string file;
   std::string output;  // empty: standard output
   ReadOptions read;
+  bool allow_empty = false;
 };
 
 Result<int> triggers(const TriggersOptions& options) {
   const auto source = open_triggers(options.file, options.read);
   if (!source) return source.error();
   std::string lines = "t_us,id,value\n";
+  bool any = options.allow_empty;
   std::array<Trigger, 1024> some;
   for (;;) {
     const auto count = (*source)->read(some);
     if (!count) return count.error();
+    any |= *count > 0;
+    if (!any) {
+      return Error{ErrorCode::bad_input,
+                   text(options.file, ": it holds no trigger; if that is right, give --allow-empty")};
+    }
     for (size_t i = 0; i < *count; ++i) {
       lines += text(some[i].t, ",", some[i].id, ",", int{some[i].value}, "\n");
     }
@@ -48,6 +55,7 @@ void add_triggers(CLI::App& program, Command& command) {
   app->add_option("file", options->file, "Recording; - is standard input")->required();
   app->add_option("-o,--output", options->output, "CSV file to write instead of standard output");
   add_read_options(*app, options->read);
+  add_allow_empty(*app, options->allow_empty);
   app->callback([&command, options] { command.run = [options] { return triggers(*options); }; });
 }
 

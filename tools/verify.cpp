@@ -9,6 +9,7 @@
 #include "tools/device_words.h"
 #include "tools/lockstep.h"
 #include "tools/options.h"
+#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
@@ -119,10 +120,19 @@ Result<int> verify(const VerifyOptions& options) {
   if (options.max_events) play_options.max_events = *options.max_events;
   const auto make_tolerance = [&] { return tolerance_of(options.stream, recording->sensor); };
   const auto tolerance = make_tolerance();
-  if (options.decode_on_device)
-    return verify_decoding(options, *recording->source, a, b, names, tolerance.get());
+  const bool none_wanted = options.max_events == 0u;
+  const auto some = [&] {
+    return require_events(options.stream.file, recording->source->report(),
+                          options.stream.allow_empty || none_wanted);
+  };
+  if (options.decode_on_device) {
+    auto outcome = verify_decoding(options, *recording->source, a, b, names, tolerance.get());
+    if (auto r = some(); outcome && !r) return r.error();
+    return outcome;
+  }
   auto run = run_in_lockstep(*recording->source, play_options, a, b, names, tolerance.get());
   if (!run) return run.error();
+  if (auto r = some(); !r) return r.error();
   if (!run->difference) {
     std::cout << identical(*run, options.stream, a, device->name, tolerance.get());
     return 0;

@@ -10,16 +10,18 @@
 namespace scarf {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
 
 size_t place_of(Column column, const std::vector<Column>& columns) {
   return static_cast<size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
 }
 
 std::string_view trimmed(std::string_view field) {
-  const size_t begin = std::min(field.find_first_not_of(kBlanks), field.size());
-  field.remove_prefix(begin);
-  return field.substr(0, field.find_last_not_of(kBlanks) + 1);
+  while (!field.empty() && is_blank(field.front())) field.remove_prefix(1);
+  while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
+  return field;
 }
 
 std::string_view unquoted(std::string_view field) {
@@ -34,7 +36,7 @@ bool is_word(std::string_view field, std::string_view word) {
 }
 
 bool separates(char c, Separator separator) {
-  return separator == Separator::blanks ? kBlanks.find(c) != kBlanks.npos : c == static_cast<char>(separator);
+  return separator == Separator::blanks ? is_blank(c) : c == static_cast<char>(separator);
 }
 
 // Where the field ends that begins at `at`: at a separator that is not in quotes.
@@ -85,6 +87,7 @@ Fields split(std::string_view line, Separator separator) {
 }
 
 bool is_blank(std::string_view line) {
+  if (!line.empty() && line.front() >= '0' && line.front() <= '9') return false;
   return line.starts_with('#') || line.find_first_not_of(" \t,;\r") == line.npos;
 }
 

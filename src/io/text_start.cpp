@@ -61,6 +61,14 @@ bool is_data(const Fields& fields) {
   return fields.count <= kMaxFields && values_in(fields) >= 4;
 }
 
+// The same behind a line of names, which may have fields that are no values.
+bool is_data(const Fields& fields, const TextStart& start) {
+  if (is_data(fields)) return true;
+  const size_t names = start.names.size();
+  const bool fits = fields.count == names || fields.without_last_empty() == names;
+  return names > 0 && fits && values_in(fields) > 0;
+}
+
 // Also the polarities that are words: `on` is a name, too.
 bool has_numbers(const Fields& fields) {
   const size_t count = std::min(fields.count, kMaxFields);
@@ -254,7 +262,8 @@ bool are_times_ambiguous(const TextStart& start, bool csv, const ReadOptions& op
                          const std::vector<Column>& columns) {
   // Programs write whole microseconds that make files with % or a column `on`.
   if (!options.time_unit.empty() || named_exponent(start, options) || start.named_on || csv) return false;
-  if (look_of_times(start, columns) == nullptr || has_fractions(start, columns)) return false;
+  const ColumnLook* const times = look_of_times(start, columns);
+  if (times == nullptr || !times->has_numbers() || times->has_fractions()) return false;
   // Behind a line with the size come seconds with decimals, even if those are 0.
   return !(start.size && are_decimals(start, columns));
 }
@@ -301,7 +310,7 @@ std::optional<TextStart> find_text_start(std::span<const uint8_t> bytes, bool la
     const bool begun = start.fields > 0;
     const Fields fields =
         line.size() < kMaxLine ? split(line, begun ? start.separator : separator_of(line)) : Fields();
-    if (is_data(fields)) {
+    if (is_data(fields, start)) {
       if (!begun) begin_data(line, start);
       look_at(fields, start);
     } else if (!begun) {
@@ -353,8 +362,11 @@ Result<TextLayout> text_layout(const TextStart& start, std::span<const uint8_t> 
   }
   if (are_times_ambiguous(start, csv, options, *columns)) {
     return ask(
-        "the times are whole numbers, so that seconds and microseconds look alike; name the unit with "
-        "--time-unit, and the order of the columns with --columns if it is not t x y p");
+        text("the times are whole numbers, so that seconds and microseconds look alike; name the unit with "
+             "--time-unit",
+             is_order_guessed(start, options)
+                 ? ", and the order of the columns with --columns if it is not t x y p"
+                 : ""));
   }
   const bool microseconds = (start.named_on || csv) && !has_fractions(start, *columns);
   const int exponent =

@@ -405,7 +405,7 @@ TEST(TextReader, TablesOfOtherThingsAreNoRecordings) {
   }
   for (const char* recording :
        {"x,y,zeit,polarity\n1,2,300,1\n", "zeit,y,x,p\n300,1,2,1\n", "1000 1 2 1\n2000 3 4 0\n",
-        "3 9 0.5 1\n1 7 0.75 0\n", "t,x,y,p\n2026-01-01,1,2,1\n"}) {
+        "3 9 0.5 1\n1 7 0.75 0\n", "t,x,y,p\n2026-01-01,1,2,1\n", "t;x;y;p\n0,5;1;2;1\n0,75;1;2;1\n"}) {
     EXPECT_EQ(code(recording), ErrorCode::bad_input) << recording;
   }
 }

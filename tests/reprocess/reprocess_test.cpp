@@ -148,6 +148,73 @@ TEST_F(Reprocess, OneCorruptTimeDoesNotFillTheDisk) {
   EXPECT_FALSE(fs::exists(path("out/a.txt.frames")));
 }
 
+TEST_F(Reprocess, ALongRecordingIsNoFlood) {
+  fs::create_directory(path("in"));
+  std::string lines = "%geometry:8,8\n";
+  for (int i = 0; i < 12'000; ++i) lines += text(i % 8, ",", i / 8 % 8, ",", i % 2, ",", 1000 * i, "\n");
+  write_text(path("in/long.csv"), lines);
+  write_text(path("recipe.toml"), "output = \".npy\"\nrate = 1000\n");
+  const Outcome outcome = run(in_to("out", "--cpu --recipe " + path("recipe.toml")));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(json_in(path("out/long.csv.json"))["counts"]["frames"], 11'999);
+}
+
+TEST_F(Reprocess, ARecordingWithoutAnEventHasFailedUnlessThatIsAllowed) {
+  record("in/a.raw", 1);
+  write_text(path("in/empty.csv"), "%geometry:64,48\n");
+  const Outcome outcome = run(in_to("out", "--cpu --keep-going"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("failed: empty.csv: "));
+  EXPECT_THAT(outcome.out, HasSubstr("--allow-empty"));
+  EXPECT_EQ(records("out").size(), 1u);
+  EXPECT_FALSE(fs::exists(path("out/empty.csv.png")));
+  EXPECT_EQ(run(in_to("allowed", "--cpu --allow-empty")).exit_code, 0);
+  EXPECT_EQ(records("allowed").size(), 2u);
+  write_text(path("recipe.toml"), "[[input]]\nmatch = \"empty.*\"\nallow-empty = true\n");
+  EXPECT_EQ(run(in_to("by-recipe", "--cpu --recipe " + path("recipe.toml"))).exit_code, 0);
+}
+
+// A folder of a data set: what is no recording is passed over, what should have been one fails.
+TEST_F(Reprocess, WhatLiesBesideRecordingsIsPassedOver) {
+  record("in/seq/events.raw", 1);
+  const std::string header = "% evt 3.0\n% format EVT3;height=48;width=64\n";
+  std::string index = header + "% bookmark_period_us 2000\n% index_version 2.0\n% end\n";
+  for (int i = 0; i < 2000; ++i) index += static_cast<char>(i * 37);
+  write_text(path("in/seq/events.raw.tmp_index"), index);
+  for (const auto& [name, content] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"imu.txt", "1600000000.1 0.1 0.2 9.8 0 0 0\n"},
+           {"imu.csv", "timestamp,ax,ay,az,gx,gy,gz\n1.5,0,0,9.8,0,0,0\n"},
+           {"stamped_groundtruth.txt", "# time tx ty tz qx qy qz qw\n1600000000.1 0 0 0 0 0 0 1\n"},
+           {"groundtruth.txt", "10,20,30,40\n11,20,30,40\n"},
+           {"boxes.csv", "ts,x,y,w,h,class_id\n100,10,20,30,40,1\n"},
+           {"timestamps.txt", "49599300523\n49599350523\n"},
+           {"cam_to_cam.yaml", "intrinsics:\n  cam0:\n    camera_matrix: [1, 1, 1, 1]\n"},
+           {"image.png", "\x89PNG\r\n\x1a\n and so on"},
+           {"image.jpg", "\xff\xd8\xff\xe0 and so on"},
+           {"events.csv.gz", "\x1f\x8b\b and so on"},
+           {"index.html", "<!DOCTYPE html><html></html>\n"},
+           {"absent.txt", ""}}) {
+    write_text(path(text("in/seq/", name)), content);
+  }
+  const Outcome outcome = run(in_to("out"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(records("out").size(), 1u);
+  EXPECT_EQ(json_in(path("out/summary.json"))["totals"]["skipped"], 13);
+
+  write_text(path("in/seq/left.raw"), "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n");
+  write_text(path("in/seq/right.aedat4"), "<html><body>quota exceeded</body></html>\n");
+  write_text(path("in/seq/third.h5"), "");
+  write_text(path("in/seq/fourth.zip"), "PK\x03\x04 cut");
+  write_text(path("in/seq/zeit.csv"), "zeit;x;y;polarity\n1;2;3;1\n");
+  const Outcome failed = run(in_to("failed", "--cpu --keep-going"));
+  EXPECT_EQ(failed.exit_code, 1);
+  for (const char* name : {"left.raw", "right.aedat4", "third.h5", "fourth.zip", "zeit.csv"}) {
+    EXPECT_THAT(failed.out, HasSubstr(text("failed: seq/", name, ": ")));
+  }
+  EXPECT_EQ(json_in(path("failed/summary.json"))["totals"]["failed"], 5);
+  EXPECT_EQ(records("failed").size(), 1u);
+}
+
 TEST_F(Reprocess, ResumeKeepsWhatIsFinished) {
   record_some();
   ASSERT_EQ(run(in_to("out")).exit_code, 0);

@@ -6,6 +6,7 @@
 #include "scarf/digest.h"
 #include "tools/play.h"
 #include "tools/read_ahead.h"
+#include "tools/read_options.h"
 #include "tools/renderer.h"
 
 namespace scarf::tools::reprocess {
@@ -53,7 +54,7 @@ Result<Computed> compute(OpenRecording recording, const std::string& path, const
   if (has_sequence(options) && (make_products || *matter)) {
     auto made = make_instants(with_side_file(options.frames, path), OutputKind::folder);
     if (!made) return made.error();
-    instants = at_most(*std::move(made), options.frames.max_frames);
+    instants = *std::move(made);
   }
   auto implementation = machine.context ? make_gpu(machine.context, options.stream, recording.sensor)
                                         : make_reference(options.stream, recording.sensor);
@@ -91,8 +92,9 @@ Result<Computed> compute(OpenRecording recording, const std::string& path, const
     const auto played = play(source, {.batches = machine.batches, .instants = instants.get()},
                              {.events = push, .frame = ask});
     if (!played) return played.error();
-    if (auto r = renderer->finish(); !r) return r.error();
     computed.report = source.report();
+    if (auto r = require_events(path, computed.report, options.stream.allow_empty); !r) return r.error();
+    if (auto r = renderer->finish(); !r) return r.error();
   }
 
   Representation& representation = *shown.front().representation;

@@ -37,10 +37,14 @@ Json json_of(const ReadReport& r) {
                {"outside", r.outside},
                {"back_steps", r.back_steps},
                {"largest_back_step_us", r.largest_back_step},
+               {"jumps", r.jumps},
+               {"largest_jump_us", r.largest_jump},
+               {"largest_jump_from_us", r.largest_jump_from},
                {"dropped", r.dropped},
                {"gaps", r.gaps},
                {"unknown_words", r.unknown_words},
                {"skipped", r.skipped},
+               {"undefined_polarities", r.undefined_polarities},
                {"truncated_bytes", r.truncated_bytes},
                {"damages", r.damages}};
   if (r.damage) json["damage"] = {{"byte", r.damage->byte}, {"what", r.damage->what}};

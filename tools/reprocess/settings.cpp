@@ -130,7 +130,8 @@ Result<std::unique_ptr<Options>> parse_settings(const Settings& settings) {
   app.set_help_flag();
   add_read_options(app, options->stream.read);
   add_representation_options(app, options->stream);
-  add_frame_options(app, options->frames, "");
+  add_frame_options(app, options->frames);
+  add_allow_empty(app, options->stream.allow_empty);
   add_product_options(app, options->products, "");
   app.add_option("--output", options->outputs);
   app.add_flag("--skip", options->skip);
