@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/regular_file.h"
 #include "core/text.h"
 
 namespace scarf {
@@ -53,6 +54,16 @@ ByteReader::ByteReader(ReadSome read_some, uint64_t total)
 Result<ByteReader> ByteReader::open(const std::string& path) {
   const int fd = path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return system_error("cannot open");
+  return over_descriptor(fd);
+}
+
+Result<ByteReader> ByteReader::open_regular(const std::string& path) {
+  auto file = scarf::open_regular(path);
+  if (!file) return file.error();
+  return over_descriptor(file->release());
+}
+
+Result<ByteReader> ByteReader::over_descriptor(int fd) {
   auto file = std::make_shared<Descriptor>(fd);
   struct stat status {};
   const bool sized = fstat(fd, &status) == 0 && S_ISREG(status.st_mode);

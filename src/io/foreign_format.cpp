@@ -18,7 +18,8 @@ constexpr Magic kMagics[] = {
     {"7z\xbc\xaf\x27\x1c"sv, "looks like a 7z archive: unpack it first"},
     {"#!AER-DAT4.0"sv, {}},
     {"#!AER-DAT2"sv,
-     "this is AEDAT 2.0 (jAER, v2e), which scarf does not read: convert it to AEDAT4 with iniVation's DV or to "
+     "this is AEDAT 2.0 (jAER, v2e), which scarf does not read: convert it to AEDAT4 with iniVation's DV or "
+     "to "
      "text, or let v2e write text (--dvs_text)"},
     {"#!AER-DAT"sv,
      "this is AEDAT of another version than 4.0, which scarf does not read: convert it to AEDAT4 with "

@@ -1,9 +1,10 @@
 // Reader of rosbag2: a database, or a folder with metadata.yaml and the files that it names, in order.
 
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 #include <utility>
 
+#include "core/regular_file.h"
 #include "core/text.h"
 #include "io/known_formats.h"
 #include "io/ros_source.h"
@@ -18,9 +19,10 @@ constexpr std::string_view kName = "rosbag2";
 constexpr std::string_view kTitle = "a ROS 2 bag (sqlite3)";
 constexpr std::string_view kDatabase = "SQLite format 3\0"sv;
 constexpr std::string_view kMetadata = "metadata.yaml";
+constexpr size_t kMaxMetadata = size_t{64} << 20;  // bytes
 
 Result<std::unique_ptr<RosBag>> open_part(const std::string& path) {
-  auto bytes = ByteReader::open(path);
+  auto bytes = ByteReader::open_regular(path);
   if (!bytes) return Error{bytes.error().code, text(path, ": ", bytes.error().message)};
   if (const auto filled = bytes->fill(kDatabase.size()); !filled) return filled.error();
   auto bag = is_mcap(bytes->available()) ? open_mcap(*std::move(bytes)) : open_rosbag2_database(path);
@@ -75,8 +77,9 @@ std::string_view without_quotes(std::string_view word) {
 
 // Of the metadata only the list relative_file_paths matters: lines "- name" behind it.
 Result<std::vector<std::string>> files_of(const std::string& folder) {
-  std::ifstream metadata(fs::path(folder) / kMetadata);
-  if (!metadata) return Error{ErrorCode::bad_input, text("the folder has no readable ", kMetadata)};
+  const auto content = read_whole((fs::path(folder) / kMetadata).string(), kMaxMetadata);
+  if (!content) return Error{content.error().code, text(kMetadata, ": ", content.error().message)};
+  std::istringstream metadata(*content);
   std::vector<std::string> paths;
   bool in_list = false;
   for (std::string line; std::getline(metadata, line);) {
@@ -117,7 +120,7 @@ Result<std::unique_ptr<RosBag>> open_bag(const Input& input) {
 bool recognise_rosbag2(const Beginning& beginning) {
   if (beginning.folder) {
     std::error_code ignored;
-    return fs::exists(fs::path(beginning.path) / kMetadata, ignored);
+    return fs::exists(fs::path(beginning.path) / kMetadata, ignored);  // also if it is no file, to say so
   }
   const std::string_view start(reinterpret_cast<const char*>(beginning.bytes.data()), beginning.bytes.size());
   return start.starts_with(kDatabase);

@@ -131,6 +131,10 @@ class Reader final : public BlockSource {
       } else {
         broken = table_.read(row_, count);
       }
+      if (auto r = check_reading(file_); !r) {
+        tally_.fail(r.error());
+        return false;
+      }
       if (!broken) {
         holes_ = 0;
         has_whole_events() ? t_.clear() : convert(count);
@@ -197,15 +201,20 @@ Error has_no_events(Family family) {
 }  // namespace
 
 bool recognise(const std::string& path, Family family) {
+  const Turn turn;
   const auto file = open_file(path);
-  return file && find_layout(*file, family) != nullptr;
+  // What could not be read is no reason to take it for another format; open() says what is wrong.
+  return file ? find_layout(*file, family) != nullptr || !check_reading(*file)
+              : file.error().code == ErrorCode::io;
 }
 
 Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& options, Family family) {
   if (auto r = require_path(input, "HDF5"); !r) return r.error();
+  const Turn turn;
   auto file = open_file(input.path);
   if (!file) return file.error();
   const Layout* const layout = find_layout(*file, family);
+  if (auto r = check_reading(*file); !r) return r.error();
   if (layout == nullptr) return has_no_events(family);
   const auto place = place_of(*file, *layout, options.stream);
   if (!place) return place.error();
@@ -227,6 +236,7 @@ Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& option
     if (!value) return Error{ErrorCode::bad_input, "t_offset is no integer"};
     t_offset = value->front();
   }
+  if (auto r = check_reading(*file); !r) return r.error();
   return std::unique_ptr<EventSource>(std::make_unique<Reader>(*std::move(file), *std::move(table), *unit,
                                                                t_offset, name_of(family), input.bytes.total(),
                                                                std::move(input.name), *sensor, options));
