@@ -17,6 +17,7 @@
 #include "tools/hdf5_writer.h"
 #include "tools/npy_file.h"
 #include "tools/pictures.h"
+#include "tools/whole_video.h"
 
 namespace scarf::tools {
 namespace {
@@ -101,7 +102,8 @@ class VideoFileWriter final : public FrameWriter {
   Result<void> finish() override {
     if (frames_ == 0) return no_frame(path_);
     video_.release();
-    // The encoder does not tell of a full disk, but then the file cannot be read back.
+    // The encoder does not tell of a full disk, but then the file is not whole, or cannot be read back.
+    if (auto r = check_whole_video(file_.name(), path_); !r) return r;
     cv::VideoCapture written(file_.name());
     const double found = written.isOpened() ? written.get(cv::CAP_PROP_FRAME_COUNT) : 0;
     if (found != static_cast<double>(frames_)) {

@@ -13,28 +13,24 @@ namespace scarf::tools {
 namespace {
 
 using hdf5::GrowingDataset;
-using hdf5::Handle;
+using hdf5::OutputFile;
 
 // Numbers of frames in a chunk of the datasets that have one number per frame.
 constexpr size_t kFramesPerChunk = 4096;
-
-Error named(const std::string& path, const Error& error) {
-  return {error.code, text(path, ": ", error.message)};
-}
 
 // What both kinds of file have: the file itself, and times and counts of its frames.
 struct FrameFile {
   FrameFile(const std::string& name) : path(name), place(name) {}
 
   Result<void> create(const std::string& counts_name) {
-    auto made = hdf5::create_file(place.name());
-    if (!made) return named(path, made.error());
+    auto made = hdf5::OutputFile::create(place.name(), path);
+    if (!made) return made.error();
     file = *std::move(made);
     auto t = GrowingDataset::create<int64_t>(file, "times", {}, kFramesPerChunk);
-    if (!t) return named(path, t.error());
+    if (!t) return t.error();
     times = *std::move(t);
     auto n = GrowingDataset::create<uint64_t>(file, counts_name, {}, kFramesPerChunk);
-    if (!n) return named(path, n.error());
+    if (!n) return n.error();
     counts = *std::move(n);
     return {};
   }
@@ -47,17 +43,17 @@ struct FrameFile {
   // Closes the file behind its datasets.
   Result<void> finish(std::initializer_list<std::reference_wrapper<GrowingDataset>> others) {
     for (GrowingDataset& dataset : others) {
-      if (auto r = dataset.close(); !r) return named(path, r.error());
+      if (auto r = dataset.close(); !r) return r.error();
     }
-    if (auto r = times.close(); !r) return named(path, r.error());
-    if (auto r = counts.close(); !r) return named(path, r.error());
-    if (auto r = hdf5::close_file(file); !r) return named(path, r.error());
+    if (auto r = times.close(); !r) return r.error();
+    if (auto r = counts.close(); !r) return r.error();
+    if (auto r = file.close(); !r) return r.error();
     return place.put_in_place();
   }
 
   const std::string path;
   AtomicFile place;
-  Handle file;
+  OutputFile file;
   GrowingDataset times;
   GrowingDataset counts;
 };
@@ -72,7 +68,7 @@ class ArrayWriter final : public Hdf5ArrayWriter {
     auto made = element_ == Hdf5Element::u8
                     ? GrowingDataset::create<uint8_t>(out_.file, std::string(dataset), shape_, 1)
                     : GrowingDataset::create<float>(out_.file, std::string(dataset), shape_, 1);
-    if (!made) return named(out_.path, made.error());
+    if (!made) return made.error();
     arrays_ = *std::move(made);
     return {};
   }
@@ -95,8 +91,8 @@ class ArrayWriter final : public Hdf5ArrayWriter {
                         " bytes is not what the file was created for: ", expected, " of ",
                         element_ == Hdf5Element::u8 ? 1 : 4)};
     }
-    if (auto r = arrays_.append(values); !r) return named(out_.path, r.error());
-    if (auto r = out_.append(frame); !r) return named(out_.path, r.error());
+    if (auto r = arrays_.append(values); !r) return r.error();
+    if (auto r = out_.append(frame); !r) return r.error();
     return {};
   }
 
@@ -113,31 +109,30 @@ class EventsWriter final : public EventListWriter {
   Result<void> create(SensorSize sensor) {
     if (auto r = out_.create("stream_events"); !r) return r;
     auto columns = hdf5::EventColumns<int64_t>::create(out_.file, sensor);
-    if (!columns) return named(out_.path, columns.error());
+    if (!columns) return columns.error();
     columns_ = *std::move(columns);
     auto offsets = GrowingDataset::create<uint64_t>(out_.file, "frame_offsets", {}, kFramesPerChunk);
-    if (!offsets) return named(out_.path, offsets.error());
+    if (!offsets) return offsets.error();
     offsets_ = *std::move(offsets);
     return append_offset();
   }
 
   Result<void> write(const Frame& frame, std::span<const Event> events) override {
-    if (auto r = columns_.append(events, 0); !r) return named(out_.path, r.error());
+    if (auto r = columns_.append(events, 0); !r) return r.error();
     count_ += events.size();
     if (auto r = append_offset(); !r) return r;
-    if (auto r = out_.append(frame); !r) return named(out_.path, r.error());
+    if (auto r = out_.append(frame); !r) return r.error();
     return {};
   }
 
   Result<void> finish() override {
-    if (auto r = columns_.close(); !r) return named(out_.path, r.error());
+    if (auto r = columns_.close(); !r) return r.error();
     return out_.finish({offsets_});
   }
 
  private:
   Result<void> append_offset() {
-    if (auto r = offsets_.append(std::span<const uint64_t>(&count_, 1)); !r)
-      return named(out_.path, r.error());
+    if (auto r = offsets_.append(std::span<const uint64_t>(&count_, 1)); !r) return r.error();
     return {};
   }
 

@@ -1,19 +1,20 @@
 #include "tools/instants.h"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "core/text.h"
 #include "core/time_unit.h"
 #include "io/decimal.h"
+#include "io/line_reader.h"
 #include "tools/parse.h"
 
 namespace scarf::tools {
 namespace {
 
 constexpr uint64_t kMicroseconds = 1'000'000;  // per second
+constexpr size_t kMaxTimesLine = 65'536;       // characters of a line of times
 constexpr size_t kMaxQuote = 40;               // characters of a line that is no time
 constexpr size_t kMaxDecimals = 6;             // of a frame rate: keeps the fraction within 64 bits
 
@@ -177,26 +178,30 @@ std::unique_ptr<Instants> frame_at_end() {
 }
 
 Result<std::vector<int64_t>> read_times(const std::string& path, const TimesFormat& format) {
-  std::ifstream file(path);
-  if (!file) return Error{ErrorCode::io, text("cannot open the times file ", path)};
+  const auto unreadable = [&](const Error& error) {
+    return Error{error.code, text("cannot read the times file ", path, ": ", error.message)};
+  };
+  auto lines = LineReader::open(path, kMaxTimesLine);
+  if (!lines) return unreadable(lines.error());
   std::vector<int64_t> times;
-  std::string line;
-  for (size_t number = 1; std::getline(file, line); ++number) {
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.empty() || line.starts_with('#')) continue;
-    const std::string_view word = column_of(line, format.column);
+  for (;;) {
+    const auto line = lines->next();
+    if (!line) return unreadable(line.error());
+    if (!*line) break;
+    if ((*line)->empty() || (*line)->starts_with('#')) continue;
+    const std::string_view word = column_of(**line, format.column);
     const auto t = microseconds_from(word, format.exponent);
     if (!t) {
-      return Error{ErrorCode::bad_input, text(path, " line ", number, ": '", word.substr(0, kMaxQuote),
-                                              "' in column ", format.column, " is not a time")};
+      return Error{ErrorCode::bad_input,
+                   text(path, " line ", lines->number(), ": '", word.substr(0, kMaxQuote), "' in column ",
+                        format.column, " is not a time")};
     }
     if (!times.empty() && *t < times.back()) {
-      return Error{ErrorCode::bad_input, text(path, " line ", number, ": time ", word,
+      return Error{ErrorCode::bad_input, text(path, " line ", lines->number(), ": time ", word,
                                               " is before the one above it; sort the times")};
     }
     times.push_back(*t);
   }
-  if (file.bad()) return Error{ErrorCode::io, text("cannot read the times file ", path)};
   if (times.empty()) return Error{ErrorCode::bad_input, text(path, " holds no times; write one per line")};
   return times;
 }

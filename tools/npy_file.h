@@ -4,13 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "io/byte_writer.h"
 #include "scarf/result.h"
 
 namespace scarf::tools {
@@ -31,16 +30,13 @@ class NpyFile {
   Result<void> finish();
 
  private:
-  NpyFile(const std::string& path, std::string type, std::vector<size_t> row);
+  NpyFile(ByteWriter file, std::string type, std::vector<size_t> row);
   Result<void> append_bytes(std::span<const char> bytes);
   std::string header(uint64_t rows) const;
-  Error failed() const;
 
-  std::string path_;
   std::string type_;
   std::vector<size_t> row_;
-  std::unique_ptr<AtomicFile> place_;
-  std::ofstream file_;
+  std::unique_ptr<ByteWriter> file_;
   uint64_t bytes_ = 0;  // of the rows
 };
 

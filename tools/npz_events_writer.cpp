@@ -62,7 +62,13 @@ class NpzWriter final : public EventListWriter {
     }
     int code = 0;
     zip_t* const archive = zip_open(place_.name().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
-    if (archive == nullptr) return failed();
+    if (archive == nullptr) {
+      zip_error_t error;
+      zip_error_init_with_code(&error, code);
+      const Error told = failed(&error);
+      zip_error_fini(&error);
+      return told;
+    }
     bool good = true;
     for (const Column& column : kColumnsOfFile) {
       zip_source_t* const source = zip_source_file(archive, part_path(column).c_str(), 0, -1);
@@ -70,8 +76,9 @@ class NpzWriter final : public EventListWriter {
              zip_file_add(archive, text(column.name, ".npy").c_str(), source, ZIP_FL_OVERWRITE) >= 0;
     }
     if (!good || zip_close(archive) != 0) {
+      const Error told = failed(zip_get_error(archive));
       zip_discard(archive);
-      return failed();
+      return told;
     }
     remove_parts();
     return place_.put_in_place();
@@ -97,8 +104,8 @@ class NpzWriter final : public EventListWriter {
     return parts_[column].append(std::span<const T>(&number, 1));
   }
 
-  Error failed() const {
-    return {ErrorCode::io, text("cannot write ", path_, "; check that its folder is there and has room")};
+  Error failed(zip_error_t* why) const {
+    return {ErrorCode::io, text("cannot write ", path_, ": ", zip_error_strerror(why))};
   }
 
   const std::string path_;

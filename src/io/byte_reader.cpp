@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/regular_file.h"
 #include "core/text.h"
 
 namespace scarf {
@@ -19,9 +20,12 @@ Error system_error(const char* what) {
   return {ErrorCode::io, text(what, ": ", std::generic_category().message(errno))};
 }
 
+}  // namespace
+
 // A file descriptor, closed with the last copy of the reader's function; standard input stays open.
-class Descriptor {
+class ByteReader::Descriptor {
  public:
+  Descriptor() = default;
   explicit Descriptor(const std::string& path)
       : fd_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
   ~Descriptor() {
@@ -30,6 +34,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
+  void hold(int fd) { fd_ = fd; }
   int number() const { return fd_; }  ///< negative: it could not be opened
   Result<size_t> read_some(std::span<uint8_t> out) const {
     for (;;) {
@@ -40,10 +45,8 @@ class Descriptor {
   }
 
  private:
-  int fd_;
+  int fd_ = -1;
 };
-
-}  // namespace
 
 // One byte more than a small input has: that it ends can then be seen without growing.
 ByteReader::ByteReader(ReadSome read_some, uint64_t total)
@@ -53,8 +56,20 @@ ByteReader::ByteReader(ReadSome read_some, uint64_t total)
       total_(total) {}
 
 Result<ByteReader> ByteReader::open(const std::string& path) {
-  const auto file = std::make_shared<Descriptor>(path);
+  auto file = std::make_shared<Descriptor>(path);
   if (file->number() < 0) return system_error("cannot open");
+  return over_descriptor(std::move(file));
+}
+
+Result<ByteReader> ByteReader::open_regular(const std::string& path) {
+  auto opened = scarf::open_regular(path);
+  if (!opened) return opened.error();
+  auto file = std::make_shared<Descriptor>();
+  file->hold(opened->release());
+  return over_descriptor(std::move(file));
+}
+
+Result<ByteReader> ByteReader::over_descriptor(std::shared_ptr<const Descriptor> file) {
   struct stat status {};
   const bool sized = fstat(file->number(), &status) == 0 && S_ISREG(status.st_mode);
   return ByteReader([file](std::span<uint8_t> out) { return file->read_some(out); },

@@ -25,6 +25,8 @@ class ByteReader {
   ByteReader(ReadSome read_some, uint64_t total);
   /// A file; "-" is standard input. Errors: io.
   static Result<ByteReader> open(const std::string& path);
+  /// A regular file: where nobody means a pipe, none may make the program wait. Errors: io.
+  static Result<ByteReader> open_regular(const std::string& path);
   /// Memory that outlives the reader.
   static ByteReader over(std::span<const uint8_t> bytes);
 
@@ -46,6 +48,9 @@ class ByteReader {
   uint64_t total() const { return total_; }
 
  private:
+  class Descriptor;
+  static Result<ByteReader> over_descriptor(std::shared_ptr<const Descriptor> file);
+
   ReadSome read_some_;
   size_t capacity_;  // of the buffer, which is only as large as the input needs
   std::unique_ptr<uint8_t[]> buffer_;

@@ -87,7 +87,7 @@ bool EcdFiles::has_images() const {
 Result<ByteReader> EcdFiles::open(std::string_view name) const {
   if (leads_out(name)) return bad(text("'", name, "' lies outside the recording"));
   if (!archive_) {
-    auto file = watched_->open(text(folder_, name));
+    auto file = watched_->open_regular(text(folder_, name));
     if (!file) return Error{file.error().code, text(name, ": ", file.error().message)};
     return file;
   }

@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "io/decimal.h"
+#include "io/line_reader.h"
 #include "io/png_image.h"
 #include "io/sensor_size.h"
 #include "io/text_lines.h"
@@ -27,32 +28,29 @@ struct Entry {
 // The list of images, line by line.
 class ImageList {
  public:
-  explicit ImageList(ByteReader lines) : lines_(std::move(lines)) {}
+  explicit ImageList(ByteReader lines) : lines_(std::move(lines), kMaxLine) {}
 
   Result<std::optional<Entry>> next() {
-    for (;;) {
-      if (const auto filled = lines_.fill(kMaxLine); !filled) return filled.error();
-      const auto bytes = lines_.available();
-      if (bytes.empty()) return std::optional<Entry>();
-      const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-      const size_t length = std::min(all.find('\n'), all.size());
-      ++number_;
-      if (length >= kMaxLine) return bad(text("images.txt: line ", number_, " is too long"));
-      const std::string line(all.substr(0, length));
-      lines_.skip(std::min(length + 1, all.size()));
-      if (is_blank(line)) continue;
-      const Fields fields = split(line, separator_of(line));
+    for (size_t blank = 0; blank < kMaxBlankLines; ++blank) {
+      const auto line = lines_.next();
+      if (!line) return Error{line.error().code, text("images.txt: ", line.error().message)};
+      if (!*line) return std::optional<Entry>();
+      if (is_blank(**line)) continue;
+      const Fields fields = split(**line, separator_of(**line));
       const auto t = microseconds_from_seconds(fields.text[0]);
       if (fields.count != 2 || !t) {
-        return bad(text("images.txt: line ", number_, " is not a time in seconds and a name"));
+        return bad(text("images.txt: line ", lines_.number(), " is not a time in seconds and a name"));
       }
       return std::optional(Entry{*t, std::string(fields.text[1])});
     }
+    return bad(text("images.txt: the ", kMaxBlankLines, " lines up to line ", lines_.number(), " are empty"));
   }
 
  private:
-  ByteReader lines_;
-  uint64_t number_ = 0;
+  // An archive of a few kilobytes unpacks to any number of them.
+  static constexpr size_t kMaxBlankLines = 1'000'000;
+
+  LineReader lines_;
 };
 
 class EcdFrames final : public FrameSource {

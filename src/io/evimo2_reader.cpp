@@ -20,7 +20,7 @@ constexpr std::string_view kPolarities = "dataset_events_p.npy";
 Result<void> add(const Input& folder, std::string_view file, std::vector<Column> contents,
                  EventArrays& events) {
   const auto named = [&](const Error& error) { return Error{error.code, text(file, ": ", error.message)}; };
-  auto bytes = folder.files->open(text(folder.path, "/", file));
+  auto bytes = folder.files->open_regular(text(folder.path, "/", file));
   if (!bytes) return named(bytes.error());
   const auto header = read_numpy_header(*bytes);
   if (!header) return named(header.error());

@@ -87,9 +87,17 @@ Result<bool> begins_with(const std::string& path, const BytesSeen& seen) {
 }  // namespace
 
 Result<ByteReader> InputFiles::open(const std::string& path) {
+  return watch(path, &ByteReader::open);
+}
+
+Result<ByteReader> InputFiles::open_regular(const std::string& path) {
+  return watch(path, &ByteReader::open_regular);
+}
+
+Result<ByteReader> InputFiles::watch(const std::string& path, Opening opening) {
   // Before it is opened: what becomes of it in between is seen, too.
   const auto state = path == "-" ? std::nullopt : file_state(path);
-  auto reader = ByteReader::open(path);
+  auto reader = opening(path);
   if (!reader || !state) return reader;
   const auto seen = std::make_shared<BytesSeen>();
   reader->observe([seen](std::span<const uint8_t> bytes) { seen->add(bytes); });

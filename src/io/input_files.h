@@ -22,6 +22,8 @@ class InputFiles {
  public:
   /// Opens a file for reading, and watches it from now on; "-" is standard input. Errors: io.
   Result<ByteReader> open(const std::string& path);
+  /// The same for a file that belongs to a recording, and is no pipe or device. Errors: io.
+  Result<ByteReader> open_regular(const std::string& path);
   /// Watches a file that a library is going to open by itself.
   void add(const std::string& path);
 
@@ -31,6 +33,9 @@ class InputFiles {
   Result<void> unchanged() const;
 
  private:
+  using Opening = Result<ByteReader> (*)(const std::string& path);
+  Result<ByteReader> watch(const std::string& path, Opening opening);
+
   struct Watched {
     std::string path;
     FileState state;

@@ -7,10 +7,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "core/regular_file.h"
 #include "core/text.h"
 #include "io/decompressor.h"
 #include "io/known_formats.h"
@@ -28,6 +29,7 @@ constexpr std::string_view kDatabase = "SQLite format 3\0"sv;
 constexpr std::string_view kMetadata = "metadata.yaml";
 // Added to a database's name: the file where SQLite keeps what is not in the database yet.
 constexpr std::string_view kLog = "-wal";
+constexpr size_t kMaxMetadata = size_t{64} << 20;  // bytes
 
 // A file that lives as long as this, and whose name nobody can foresee.
 class TemporaryFile {
@@ -108,7 +110,7 @@ Result<std::unique_ptr<RosBag>> open_bytes(ByteReader bytes, const std::string& 
 
 // `path`: of a database, an MCAP, or either of them compressed as a whole.
 Result<std::unique_ptr<RosBag>> open_part(const std::string& path) {
-  auto bytes = ByteReader::open(path);
+  auto bytes = ByteReader::open_regular(path);
   if (!bytes) return Error{bytes.error().code, text(path, ": ", bytes.error().message)};
   auto bag = open_bytes(*std::move(bytes), path);
   if (!bag) return Error{bag.error().code, text(path, ": ", bag.error().message)};
@@ -177,8 +179,9 @@ std::string as_it_is(const std::string& path) {
 
 // Of the metadata only the list relative_file_paths matters: lines "- name" behind it.
 Result<std::vector<std::string>> files_of(const std::string& folder) {
-  std::ifstream metadata(fs::path(folder) / kMetadata);
-  if (!metadata) return Error{ErrorCode::bad_input, text("the folder has no readable ", kMetadata)};
+  const auto content = read_whole((fs::path(folder) / kMetadata).string(), kMaxMetadata);
+  if (!content) return Error{content.error().code, text(kMetadata, ": ", content.error().message)};
+  std::istringstream metadata(*content);
   std::vector<std::string> paths;
   bool in_list = false;
   for (std::string line; std::getline(metadata, line);) {
@@ -232,7 +235,7 @@ bool holds_bag(const Beginning& beginning) {
 bool recognise_rosbag2(const Beginning& beginning) {
   if (beginning.folder) {
     std::error_code ignored;
-    return fs::exists(fs::path(beginning.path) / kMetadata, ignored);
+    return fs::exists(fs::path(beginning.path) / kMetadata, ignored);  // also if it is no file, to say so
   }
   if (looks_like_zstd(beginning.bytes)) return holds_bag(beginning);
   return starts_with(beginning.bytes, kDatabase);

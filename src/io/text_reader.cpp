@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/text.h"
 #include "io/buffered_source.h"
 #include "io/known_formats.h"
 #include "io/look_ahead.h"
@@ -23,13 +24,18 @@ static_assert(kMaxLine < ByteReader::kCapacity);
 constexpr std::string_view kText = "text";
 constexpr std::string_view kCsv = "csv";
 
+// So many lines without an event between them are in no recording; an archive of a megabyte unpacks to a
+// thousand times as many bytes of them. Seconds of work.
+constexpr uint64_t kMaxIdleLines = uint64_t{1} << 24;
+
 class TextReader final : public BufferedSource {
  public:
   TextReader(std::string_view format, Input input, std::optional<SensorSize> sensor, TextLayout layout,
              const ReadOptions& options)
       : BufferedSource(std::move(input.bytes), std::move(input.name), sensor, options),
         format_(format),
-        layout_(std::move(layout)) {}
+        layout_(std::move(layout)),
+        one_camera_(options.stream.empty()) {}
 
   std::string_view format() const override { return format_; }
 
@@ -39,6 +45,8 @@ class TextReader final : public BufferedSource {
  private:
   std::string_view format_;
   TextLayout layout_;
+  const bool one_camera_;      // else lines without an event may be those of the others
+  uint64_t idle_lines_ = 0;    // since the last event
   bool in_long_line_ = false;  // the beginning of a line longer than kMaxLine was skipped
 };
 
@@ -49,6 +57,18 @@ BufferedSource::Decoded TextReader::decode(std::span<const uint8_t> bytes, bool 
   size_t count = 0;
   size_t at = 0;
   while (count < out.size() && at < all.size()) {
+    if (idle_lines_ > kMaxIdleLines) {
+      tally_.fail({ErrorCode::bad_input, text("more than ", kMaxIdleLines,
+                                              " lines in a row hold no event; this is no recording, or what "
+                                              "was one ends before them")});
+      return {at, count, false};
+    }
+    if (!in_long_line_ && all[at] == '\n') {  // there may be very many
+      const size_t next = std::min(all.find_first_not_of('\n', at), all.size());
+      idle_lines_ += next - at;
+      at = next;
+      continue;
+    }
     const std::string_view rest = all.substr(at);
     const size_t newline = rest.find('\n');
     if (newline == rest.npos && rest.size() >= kMaxLine) {
@@ -64,6 +84,8 @@ BufferedSource::Decoded TextReader::decode(std::span<const uint8_t> bytes, bool 
       in_long_line_ = !whole;
     } else {
       const Line line = length < kMaxLine ? layout_.parse(rest.substr(0, length)) : Line{};
+      const bool idle = line.kind == Line::unknown || (line.kind == Line::blank && one_camera_);
+      idle_lines_ = idle ? idle_lines_ + 1 : 0;
       if (line.kind == Line::event) {
         out[count] = line.content;
         count += tally_.keep(out.subspan(count, 1));

@@ -247,7 +247,7 @@ Result<YarpOptions> options_for(const LogStart& start, const ReadOptions& option
 
 Result<std::unique_ptr<EventSource>> open_yarp(Input input, const ReadOptions& options) {
   if (input.folder) {
-    auto data = input.files->open(text(input.path, "/", kData));
+    auto data = input.files->open_regular(text(input.path, "/", kData));
     if (!data) return Error{data.error().code, text(kData, ": ", data.error().message)};
     input.bytes = *std::move(data);
   }

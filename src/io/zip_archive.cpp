@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/regular_file.h"
 #include "core/text.h"
 #include "io/format.h"
 
@@ -53,6 +54,7 @@ struct CloseMember {
 }  // namespace
 
 Result<ZipArchive> ZipArchive::open(const std::string& path) {
+  if (const auto r = require_regular(path); !r) return r.error();
   int code = 0;
   ZipArchive archive;
   const auto handle = std::make_shared<Handle>();
@@ -99,8 +101,11 @@ Result<ByteReader> ZipArchive::read(const Member& member) const {
     const zip_int64_t count = zip_fread(open->file.get(), out.data(), out.size());
     if (count >= 0) return static_cast<size_t>(count);
     open->broken = true;
-    return Error{ErrorCode::bad_input, text(open->name, " in the zip archive is broken: ",
-                                            zip_error_strerror(zip_file_get_error(open->file.get())))};
+    zip_error_t* const error = zip_file_get_error(open->file.get());
+    const bool unreadable = zip_error_code_zip(error) == ZIP_ER_READ;
+    return Error{unreadable ? ErrorCode::io : ErrorCode::bad_input,
+                 text(open->name, " in the zip archive ",
+                      unreadable ? "cannot be read: " : "is broken: ", zip_error_strerror(error))};
   };
   return ByteReader(read_some, member.bytes);
 }

@@ -180,6 +180,7 @@ class ChainSaePipeline final : public ImagePipeline {
     if (event_driven_) b.buffer(cells_, "the ranks shown", pixels_ * kWord);
     sum_.build(b, words + 1);
     sum_.bind(b, sum_counts_, counts_);
+    if (!b.result()) return;  // before the table, which has as many entries as the sensor has pixels
     tone_.build(b, chain_table(static_cast<int64_t>(pixels_), linear), pixels_);
     tone_.bind(b, tone_shown_, shown());
     constexpr size_t kPush = sizeof(layout::ChainPush);

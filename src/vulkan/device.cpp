@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <new>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "core/text.h"
+#include "vulkan/pipeline_cache.h"
 
 namespace scarf::vulkan {
 namespace {
@@ -481,15 +483,14 @@ Result<void> Device::create_queue(Queue& queue, uint32_t family, std::mutex* mut
 // The driver checks that cached pipelines are its own; the file's name keeps those of different drivers
 // apart.
 Result<void> Device::load_cache() {
-  std::vector<char> bytes;
+  std::vector<uint8_t> bytes;
   const std::filesystem::path folder = cache_folder(options_.cache_folder);
   if (folder != "-") {
     const std::string driver = lower(info_.driver);
     std::string name = info_.uuid;
     for (char ch : driver) name += std::isalnum(static_cast<unsigned char>(ch)) != 0 ? ch : '_';
     cache_path_ = (folder / (name + ".pipelines")).string();
-    std::ifstream in(cache_path_, std::ios::binary);
-    bytes.assign(std::istreambuf_iterator<char>(in), {});
+    bytes = load_pipelines(cache_path_);
   }
   VkPipelineCacheCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
@@ -503,18 +504,13 @@ void Device::save_cache() const {
   if (cache_path_.empty() || cache_ == VK_NULL_HANDLE || lost_) return;
   size_t size = 0;
   if (table_.GetPipelineCacheData(device_, cache_, &size, nullptr) != VK_SUCCESS) return;
-  std::vector<char> bytes(size);
-  if (table_.GetPipelineCacheData(device_, cache_, &size, bytes.data()) != VK_SUCCESS) return;
-  std::error_code ignored;
-  std::filesystem::create_directories(std::filesystem::path(cache_path_).parent_path(), ignored);
-  // Renamed into place, so that another process never reads half of it.
-  const std::string temporary = text(cache_path_, '.', static_cast<const void*>(this), ".tmp");
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(size));
-    if (!out.good()) return;
+  if (size > kMaxPipelineCache) return;
+  try {
+    std::vector<uint8_t> bytes(size);
+    if (table_.GetPipelineCacheData(device_, cache_, &size, bytes.data()) != VK_SUCCESS) return;
+    save_pipelines(cache_path_, std::span(bytes).first(size));
+  } catch (const std::bad_alloc&) {
   }
-  std::filesystem::rename(temporary, cache_path_, ignored);
 }
 
 Device::~Device() {

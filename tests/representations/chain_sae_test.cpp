@@ -1,5 +1,6 @@
 // CHAIN-SAE on the device: what the tests of all representations do not reach.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <random>
@@ -7,6 +8,7 @@
 #include "tests/support/context.h"
 #include "tests/support/representations.h"
 #include "tests/support/streams.h"
+#include "vulkan/device.h"
 
 namespace scarf {
 namespace {
@@ -87,6 +89,25 @@ TEST_P(ChainSae, HighDefinition) {
     push(make_stream(Spread::moving_edge, sensor, 50'000, batch));
     ASSERT_NO_FATAL_FAILURE(compare());
   }
+}
+
+TEST_P(ChainSae, ASensorThatIsTooLargeIsRefusedBeforeItsTableIsMade) {
+  const SensorSize sensor{16'384, 16'384};
+  const uint64_t pixels = uint64_t{16'384} * 16'384;
+  if (context_->vulkan().limits().storage_range >= pixels * sizeof(uint32_t)) {
+    GTEST_SKIP() << "the device can hold it";
+  }
+  const auto peak = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // KiB
+  };
+  const long before = peak();
+  const auto made =
+      make_gpu_representation(context_, ChainSaeParameters{.rule = GetParam()}, sensor, GpuOptions{});
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("the stamps of the pixels needs"), std::string::npos);
+  EXPECT_LT(peak() - before, 512 * 1024) << "the table has two gigabytes";
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "core/text.h"
 #include "tests/tools/temporary_folder.h"
 
 namespace scarf::tools::reprocess {
@@ -85,6 +87,43 @@ TEST_F(Listing, MistakesOfAListNameTheLine) {
   EXPECT_THAT(error("a\tas=b/c\tgeometry=1x1\nd\toutput=.frames/\tas=b.x\ne\tas=b.x.frames/f\n"),
               HasSubstr("b.x.frames"));
   EXPECT_THAT(error(std::string("EVT\0\1\2", 6)), HasSubstr("neither a folder nor a list"));
+  EXPECT_THAT(error(std::string(100'000, 'a')), HasSubstr("neither a folder nor a list"));
+  EXPECT_THAT(error("a.raw\n-\n"), HasSubstr("line 2: - is standard input"));
+  EXPECT_THAT(error("{\"path\": \"-\"}\n"), HasSubstr("line 1: - is standard input"));
+  EXPECT_THAT(error("a.raw\n/dev/zero\n"), HasSubstr("line 2: /dev/zero is neither a file nor a folder"));
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_THAT(error("pipe\n"), HasSubstr("line 1: pipe is neither a file nor a folder"));
+}
+
+TEST_F(Listing, OfLinksThatMultiplyTakesEachFolderOnce) {
+  // 24 folders, each with two links to the next: 2^24 ways to the last one.
+  for (int i = 0; i < 24; ++i) {
+    add(text("in/", i, "/a.txt"));
+    const std::string next = text("../", (i + 1) % 24);
+    fs::create_directory_symlink(next, path(text("in/", i, "/left")));
+    fs::create_directory_symlink(next, path(text("in/", i, "/right")));
+  }
+  fs::create_directory_symlink("../../in", path("in/5/up"));
+  alarm(60);
+  const auto jobs = list("in");
+  alarm(0);
+  ASSERT_TRUE(jobs.ok()) << jobs.error().message;
+  EXPECT_EQ(jobs->jobs.size(), 24u);
+  EXPECT_EQ(jobs->settled.size(), 49u);
+  for (const Outcome& o : jobs->settled) {
+    EXPECT_EQ(o.status, Status::skipped) << o.relative;
+    EXPECT_THAT(o.message, HasSubstr("the same folder as")) << o.relative;
+  }
+}
+
+TEST_F(Listing, AFolderKeepsItsOwnNameWhateverLinksSortBeforeIt) {
+  add("in/z/a.txt");
+  fs::create_directory_symlink("z", path("in/b"));
+  add("elsewhere/c.txt");
+  fs::create_directory_symlink("../elsewhere", path("in/a"));
+  const auto jobs = list("in");
+  ASSERT_TRUE(jobs.ok()) << jobs.error().message;
+  EXPECT_THAT(names(*jobs), ElementsAre("a/c.txt", "z/a.txt"));
 }
 
 }  // namespace

@@ -84,6 +84,13 @@ TEST_F(RecipeFile, MistakesNameTheLineAndTheSetting) {
   EXPECT_EQ(read_recipe(folder_.path("missing.toml")).error().code, ErrorCode::io);
 }
 
+TEST_F(RecipeFile, IsARegularFileOfText) {
+  EXPECT_THAT(error_of(std::string("[\0\0", 3)), HasSubstr("line 1"));
+  EXPECT_THAT(error_of("[%"), HasSubstr("line 1"));
+  EXPECT_THAT(read_recipe("/dev/zero").error().message, HasSubstr("it is a device"));
+  EXPECT_THAT(read_recipe(testing::TempDir()).error().message, HasSubstr("it is a folder"));
+}
+
 TEST_F(RecipeFile, SideFilesStandBesideTheRecording) {
   EXPECT_EQ(side_file("{stem}.times", "/a/b.raw"), "/a/b.times");
   EXPECT_EQ(side_file("labels/{name}.csv", "/a/b.raw"), "/a/labels/b.raw.csv");

@@ -50,6 +50,26 @@ TEST_F(Reprocess, MirrorsTheTreeWithPicturesAndRecords) {
   EXPECT_EQ(json_in(path("out/summary.json"))["schema"], 1);
 }
 
+TEST_F(Reprocess, PipesInThePlaceOfItsFilesAreRefusedByName) {
+  record("in/a.raw", 1);
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const auto expect_refused = [&](const std::string& arguments) {
+    const Outcome outcome = shell(text("exec timeout 60 ", SCARF_PROGRAM, " ", arguments));
+    EXPECT_TRUE(outcome.exit_code == 1 || outcome.exit_code == 2) << arguments << outcome.exit_code;
+    EXPECT_THAT(outcome.err, HasSubstr("it is a pipe")) << arguments;
+  };
+  expect_refused("reprocess " + in_to("out", "--cpu --recipe " + path("pipe")));
+  expect_refused(text("reprocess ", path("pipe"), " -o ", path("out"), " --cpu"));
+  expect_refused(
+      text("render --cpu ", path("in/a.raw"), " -o ", path("a.npy"), " --at-times ", path("pipe")));
+  // An earlier record that is none is no reason to wait.
+  fs::create_directory(path("out"));
+  ASSERT_EQ(mkfifo(path("out/a.raw.json").c_str(), 0600), 0);
+  const int status =
+      shell(text("exec timeout 60 ", SCARF_PROGRAM, " reprocess ", in_to("out", "--cpu --resume"))).exit_code;
+  EXPECT_TRUE(status == 0 || status == 1) << status;
+}
+
 TEST_F(Reprocess, RecordsDependOnNeitherJobsNorTheDevice) {
   record_some();
   ASSERT_EQ(run(in_to("one", "--jobs 1")).exit_code, 0);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <span>
 #include <system_error>
 #include <vector>
 
 #include "core/little_endian.h"
 #include "core/text.h"
+#include "io/byte_reader.h"
 #include "scarf/digest.h"
 
 namespace scarf::tools::reprocess {
@@ -16,18 +15,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kPiece = 1 << 20;  // bytes
-
 Result<void> add_file(Digest& digest, const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{ErrorCode::io, text("cannot open ", path.string())};
-  std::vector<uint8_t> piece(kPiece);
-  while (file) {
-    file.read(reinterpret_cast<char*>(piece.data()), kPiece);
-    digest.add(std::span(piece).first(static_cast<size_t>(file.gcount())));
+  auto file = ByteReader::open_regular(path.string());
+  if (!file) return Error{file.error().code, text(path.string(), ": ", file.error().message)};
+  for (;;) {
+    if (const auto filled = file->fill(1); !filled) {
+      return Error{filled.error().code, text(path.string(), ": ", filled.error().message)};
+    }
+    const auto bytes = file->available();
+    if (bytes.empty()) return {};
+    digest.add(bytes);
+    file->skip(bytes.size());
   }
-  if (file.bad()) return Error{ErrorCode::io, text("cannot read ", path.string())};
-  return {};
 }
 
 Result<void> add_folder(Digest& digest, const fs::path& folder, const std::string& out) {

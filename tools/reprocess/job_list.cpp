@@ -1,8 +1,12 @@
 #include "tools/reprocess/job_list.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -47,21 +51,31 @@ bool is_one_job(const fs::path& folder, const Settings& settings) {
   return source.error().code == ErrorCode::bad_input && (*options)->stream.read.format.empty();
 }
 
+// What a folder is, whatever leads to it; nullopt if that cannot be told.
+std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& folder) {
+  struct stat status {};
+  if (stat(folder.c_str(), &status) != 0) return std::nullopt;
+  return std::pair(status.st_dev, status.st_ino);
+}
+
+// Every folder is entered once, however many links lead to it, so links in circles and links that multiply
+// make no work. Links wait until the folders that lie where they are named are known.
 class FolderWalk {
  public:
-  FolderWalk(const Recipe& recipe, const std::string& out) : recipe_(recipe) {
-    std::error_code ignored;
-    out_ = fs::weakly_canonical(out, ignored);
-  }
+  FolderWalk(const Recipe& recipe, const std::string& out) : recipe_(recipe), out_(identity_of(out)) {}
 
   JobList walk(const fs::path& root) {
     std::error_code error;
-    const fs::path whole = fs::weakly_canonical(root, error);
-    const std::string name = whole.filename().string();
+    const std::string name = fs::weakly_canonical(root, error).filename().string();
+    if (const auto identity = identity_of(root)) entered_.emplace(*identity, name);
     if (is_one_job(root, recipe_.for_recording(name))) {
       add_job(name, root);
     } else {
-      enter(root, whole, "");
+      enter(root, "");
+    }
+    for (; !links_.empty(); links_.pop_front()) {
+      const auto [folder, relative] = links_.front();
+      visit_folder(folder, relative);
     }
     return std::move(list_);
   }
@@ -80,20 +94,18 @@ class FolderWalk {
     list_.jobs.push_back({relative, path.string(), recipe_.for_recording(relative), false, size_of(path)});
   }
 
-  // `whole`: the folder without links; those on the way to it are above_.
-  void enter(const fs::path& folder, const fs::path& whole, const std::string& relative) {
-    above_.push_back(whole);
+  void enter(const fs::path& folder, const std::string& relative) {
     std::vector<fs::path> entries;
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
       entries.push_back(entry->path());
     }
     if (error) settle(relative, Status::failed, text("cannot list ", folder.string(), ": ", error.message()));
+    std::sort(entries.begin(), entries.end());
     for (const fs::path& entry : entries) {
       const std::string name = entry.filename().string();
       visit(entry, relative.empty() ? name : text(relative, "/", name));
     }
-    above_.pop_back();
   }
 
   void visit(const fs::path& entry, const std::string& relative) {
@@ -103,7 +115,10 @@ class FolderWalk {
       const std::string why = error ? error.message() : "it is a link to nothing";
       return settle(relative, Status::failed, text("cannot open ", entry.string(), ": ", why));
     }
-    if (status.type() == fs::file_type::directory) return visit_folder(entry, relative);
+    if (status.type() == fs::file_type::directory) {
+      if (fs::is_symlink(entry, error)) return links_.emplace_back(entry, relative), void();
+      return visit_folder(entry, relative);
+    }
     if (looks_unfinished(relative)) return settle_unfinished(relative);
     if (status.type() != fs::file_type::regular) {
       return settle(relative, Status::skipped, "neither a file nor a folder");
@@ -112,15 +127,16 @@ class FolderWalk {
   }
 
   void visit_folder(const fs::path& folder, const std::string& relative) {
-    std::error_code error;
-    const fs::path whole = fs::weakly_canonical(folder, error);
-    if (whole == out_) return;
+    const auto identity = identity_of(folder);
+    if (!identity) return settle(relative, Status::failed, text("cannot open ", folder.string()));
+    if (identity == out_) return;
     if (looks_unfinished(relative)) return settle_unfinished(relative);
-    if (std::find(above_.begin(), above_.end(), whole) != above_.end()) {
-      return settle(relative, Status::skipped, "a link to a folder that it is in");
+    const auto [first, fresh] = entered_.emplace(*identity, relative);
+    if (!fresh) {
+      return settle(relative, Status::skipped, text("the same folder as ", first->second, ", listed there"));
     }
     if (is_one_job(folder, recipe_.for_recording(relative))) return add_job(relative, folder);
-    enter(folder, whole, relative);
+    enter(folder, relative);
   }
 
   void settle_unfinished(const std::string& relative) {
@@ -129,8 +145,9 @@ class FolderWalk {
   }
 
   const Recipe& recipe_;
-  fs::path out_;
-  std::vector<fs::path> above_;
+  const std::optional<std::pair<dev_t, ino_t>> out_;
+  std::map<std::pair<dev_t, ino_t>, std::string> entered_;  // folders, and where they are listed
+  std::deque<std::pair<fs::path, std::string>> links_;
   JobList list_;
 };
 
@@ -159,6 +176,11 @@ Result<JobList> from_manifest(const std::string& input, const Recipe& recipe) {
     job.settings = recipe.for_recording(job.relative);
     lay_over(job.settings, entry.settings);
     job.listed = true;
+    std::error_code ignored;
+    const fs::file_status status = fs::status(job.path, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+      return illegal(text(input, " line ", entry.line, ": ", entry.path, " is neither a file nor a folder"));
+    }
     job.bytes = size_of(job.path);
     if (const auto options = parse_settings(job.settings); !options) {
       return illegal(text(input, " line ", entry.line, ": ", options.error().message));

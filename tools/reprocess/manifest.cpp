@@ -1,11 +1,11 @@
 #include "tools/reprocess/manifest.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "core/text.h"
+#include "io/line_reader.h"
 #include "tools/command_line.h"
 
 namespace scarf::tools::reprocess {
@@ -72,6 +72,10 @@ Result<Listed> entry_of(const std::string& line, bool json) {
   auto entry = json ? json_entry(line) : text_entry(line);
   if (!entry) return entry;
   if (entry->path.empty()) return in_line("the path is missing");
+  if (entry->path == "-") {
+    return in_line(
+        "- is standard input, which holds no file that could be read twice; name a file or folder");
+  }
   if (const auto as = entry->settings.extract(std::string(kAs))) {
     if (as.mapped().size() != 1) return in_line("as is not one path");
     entry->as = as.mapped().front();
@@ -83,30 +87,32 @@ Result<Listed> entry_of(const std::string& line, bool json) {
 }  // namespace
 
 Result<std::vector<Listed>> read_manifest(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{ErrorCode::io, text("cannot open the list ", path)};
+  const auto no_list = [&] {
+    return Error{ErrorCode::illegal_parameter,
+                 text(path,
+                      " is neither a folder nor a list of recordings; `scarf render` takes a single "
+                      "recording")};
+  };
+  auto lines = LineReader::open(path, kMaxLine);
+  if (!lines) return Error{ErrorCode::io, text("cannot read the list ", path, ": ", lines.error().message)};
   std::vector<Listed> entries;
-  std::string line;
   std::optional<bool> json;
-  for (size_t number = 1; std::getline(file, line); ++number) {
-    if (line.size() > kMaxLine || line.find('\0') != line.npos) {
-      return Error{ErrorCode::illegal_parameter,
-                   text(path,
-                        " is neither a folder nor a list of recordings; `scarf render` takes a single "
-                        "recording")};
-    }
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.empty() || line.starts_with('#')) continue;
-    if (!json) json = line.starts_with('{');
-    auto entry = entry_of(line, *json);
+  for (;;) {
+    const auto line = lines->next();
+    if (!line && line.error().code == ErrorCode::bad_input) return no_list();
+    if (!line) return Error{ErrorCode::io, text("cannot read the list ", path, ": ", line.error().message)};
+    if (!*line) return entries;
+    if ((*line)->find('\0') != std::string_view::npos) return no_list();
+    if ((*line)->empty() || (*line)->starts_with('#')) continue;
+    if (!json) json = (*line)->starts_with('{');
+    auto entry = entry_of(std::string(**line), *json);
     if (!entry) {
-      return Error{ErrorCode::illegal_parameter, text(path, " line ", number, ": ", entry.error().message)};
+      return Error{ErrorCode::illegal_parameter,
+                   text(path, " line ", lines->number(), ": ", entry.error().message)};
     }
-    entry->line = number;
+    entry->line = lines->number();
     entries.push_back(*std::move(entry));
   }
-  if (file.bad()) return Error{ErrorCode::io, text("cannot read the list ", path)};
-  return entries;
 }
 
 }  // namespace scarf::tools::reprocess

@@ -28,5 +28,7 @@ Recipe default_recipe();
 /// A TOML file on top of the default: settings, and tables [[input]] with `match` and settings.
 /// Errors: io; illegal_parameter, naming the line, also for settings that are none.
 Result<Recipe> read_recipe(const std::string& path);
+/// The content of such a file, which messages call `path`. Errors: as read_recipe.
+Result<Recipe> parse_recipe(const std::string& content, const std::string& path);
 
 }  // namespace scarf::tools::reprocess

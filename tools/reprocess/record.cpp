@@ -1,9 +1,8 @@
 #include "tools/reprocess/record.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/regular_file.h"
 #include "core/text.h"
 #include "tools/reprocess/version.h"
 
@@ -12,7 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSchema = 1;  // docs/JSON.md
+constexpr int kSchema = 1;                       // docs/JSON.md
+constexpr size_t kMaxRecord = size_t{16} << 20;  // bytes
 
 // One value as itself, several as a list.
 Json json_of(const Settings& settings) {
@@ -102,11 +102,12 @@ std::string record_text(const Record& record, const Job& job, const Computed& co
 }
 
 Result<Record> read_record(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{ErrorCode::io, text("cannot open the record ", path)};
-  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto content = read_whole(path, kMaxRecord);
+  if (!content) {
+    return Error{ErrorCode::io, text("cannot read the record ", path, ": ", content.error().message)};
+  }
   try {
-    const Json json = Json::parse(content);
+    const Json json = Json::parse(*content);
     Record record;
     record.input.sha256 = json.at("input_sha256");
     record.input.bytes = json.at("input_bytes");

@@ -30,6 +30,13 @@ Handle open_object(const Handle& file, const std::string& path) {
   return H5Iget_type(object.id()) == H5I_DATASET ? std::move(object) : Handle();
 }
 
+// To be asked of a dataset before anything else: to say how large a virtual one is, libhdf5 opens the files
+// that it names, and waits if one is a pipe.
+bool lies_elsewhere(const Handle& dataset) {
+  const Handle creation(H5Dget_create_plist(dataset.id()));
+  return H5Pget_layout(creation.id()) == H5D_VIRTUAL || H5Pget_external_count(creation.id()) != 0;
+}
+
 Error bad(std::string message) {
   return {ErrorCode::bad_input, std::move(message)};
 }
@@ -71,6 +78,9 @@ Result<Dataset> Dataset::open(const Handle& file, const std::string& path, const
 }
 
 Result<void> Dataset::look_at_layout(const Across& across) {
+  if (lies_elsewhere(dataset_)) {
+    return bad(text(path_, " keeps its data in other files, which are not read; copy it with h5repack"));
+  }
   const Handle space(H5Dget_space(dataset_.id()));
   const int rank = H5Sget_simple_extent_ndims(space.id());
   if (rank < 1 || rank > 3) return bad(text(path_, " has ", rank, " dimensions, not 1 to 3"));
@@ -78,14 +88,10 @@ Result<void> Dataset::look_at_layout(const Across& across) {
   H5Sget_simple_extent_dims(space.id(), shape_.data(), nullptr);
 
   const Handle creation(H5Dget_create_plist(dataset_.id()));
-  const H5D_layout_t layout = H5Pget_layout(creation.id());
-  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation.id()) != 0) {
-    return bad(text(path_, " keeps its data in other files, which are not read; copy it with h5repack"));
-  }
   const bool by_matlab = H5Aexists(dataset_.id(), "MATLAB_class") > 0;
   axis_ = rank == 2 && across && across(shape_, by_matlab) ? 1 : 0;
   cache_bytes_ = 0;
-  if (layout != H5D_CHUNKED) return {};
+  if (H5Pget_layout(creation.id()) != H5D_CHUNKED) return {};
 
   chunk_.resize(shape_.size());
   if (H5Pget_chunk(creation.id(), rank, chunk_.data()) != rank)
@@ -221,13 +227,9 @@ uint64_t Dataset::byte_of(uint64_t row) const {
 std::optional<std::vector<int64_t>> short_dataset(const Handle& file, const std::string& path) {
   const Turn turn;
   const Handle dataset = open_object(file, path);
-  if (!dataset) return std::nullopt;
+  if (!dataset || lies_elsewhere(dataset)) return std::nullopt;
   const auto count = short_size(Handle(H5Dget_space(dataset.id())));
-  const Handle creation(H5Dget_create_plist(dataset.id()));
-  if (!count || !is_number(Handle(H5Dget_type(dataset.id()))) || H5Pget_external_count(creation.id()) != 0 ||
-      H5Pget_layout(creation.id()) == H5D_VIRTUAL) {
-    return std::nullopt;
-  }
+  if (!count || !is_number(Handle(H5Dget_type(dataset.id())))) return std::nullopt;
   std::vector<int64_t> values(*count);
   if (H5Dread(dataset.id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     return std::nullopt;

@@ -39,7 +39,10 @@ class Dataset {
   /// Values of a row.
   uint64_t row_values() const;
   /// The file's type of a value; owned by the caller.
-  Handle type() const { return Handle(H5Dget_type(dataset_.id())); }
+  Handle type() const {
+    const Turn turn;
+    return Handle(H5Dget_type(dataset_.id()));
+  }
   bool ecf() const { return ecf_; }
 
   /// The first row behind the chunk that holds `row`; rows() if there are no chunks.

@@ -29,14 +29,14 @@ class DsecWriter final : public EventSink {
         check_(sensor, {.format = "dsec", .t_min = -kMaxTime + 1, .t_end = kMaxTime}) {}
 
   Result<void> create(SensorSize sensor) {
-    auto file = hdf5::create_file(place_.name());
-    if (!file) return named(file.error());
+    auto file = hdf5::OutputFile::create(place_.name(), path_);
+    if (!file) return file.error();
     file_ = *std::move(file);
     auto columns = hdf5::EventColumns<uint32_t>::create(file_, sensor);
-    if (!columns) return named(columns.error());
+    if (!columns) return columns.error();
     columns_ = *std::move(columns);
     auto index = GrowingDataset::create<uint64_t>(file_, "ms_to_idx", {}, kBufferedEvents);
-    if (!index) return named(index.error());
+    if (!index) return index.error();
     index_ = *std::move(index);
     return {};
   }
@@ -67,23 +67,21 @@ class DsecWriter final : public EventSink {
     // One more: the first millisecond behind the last event.
     if (auto r = extend_index(milliseconds_, count_); !r) return r;
     if (auto r = write_index(); !r) return r;
-    if (auto r = hdf5::write_scalar(file_, "t_offset", origin_.value_or(0)); !r) return named(r.error());
-    if (auto r = index_.close(); !r) return named(r.error());
-    if (auto r = columns_.close(); !r) return named(r.error());
-    if (auto r = hdf5::close_file(file_); !r) return named(r.error());
+    if (auto r = hdf5::write_scalar(file_, "t_offset", origin_.value_or(0)); !r) return r;
+    if (auto r = index_.close(); !r) return r;
+    if (auto r = columns_.close(); !r) return r;
+    if (auto r = file_.close(); !r) return r;
     return place_.put_in_place();
   }
 
  private:
-  Error named(const Error& error) const { return {error.code, text(path_, ": ", error.message)}; }
-
   Result<void> flush() {
     for (size_t i = 0; i < buffer_.size(); ++i) {
       // Entry k: the first event at k milliseconds or later.
       const auto reached = static_cast<uint64_t>((buffer_[i].t - *origin_) / 1000);
       if (auto r = extend_index(reached, count_ + i); !r) return r;
     }
-    if (auto r = columns_.append(buffer_, origin_.value_or(0)); !r) return named(r.error());
+    if (auto r = columns_.append(buffer_, origin_.value_or(0)); !r) return r;
     count_ += buffer_.size();
     buffer_.clear();
     return write_index();
@@ -100,7 +98,7 @@ class DsecWriter final : public EventSink {
   }
 
   Result<void> write_index() {
-    if (auto r = index_.append(std::span<const uint64_t>(entries_)); !r) return named(r.error());
+    if (auto r = index_.append(std::span<const uint64_t>(entries_)); !r) return r;
     entries_.clear();
     return {};
   }
@@ -108,7 +106,7 @@ class DsecWriter final : public EventSink {
   const std::string path_;
   AtomicFile place_;
   EventCheck check_;
-  hdf5::Handle file_;
+  hdf5::OutputFile file_;
   hdf5::EventColumns<uint32_t> columns_;
   GrowingDataset index_;
   std::optional<int64_t> origin_;  // of the first event

@@ -167,6 +167,10 @@ class Reader final : public BlockSource {
       } else {
         broken = table_.read(row_, count);
       }
+      if (auto r = check_reading(file_); !r) {
+        tally_.fail(r.error());
+        return false;
+      }
       if (!broken) {
         holes_ = 0;
         has_whole_events() ? t_.clear() : convert(count);
@@ -263,15 +267,20 @@ Result<Found> find(const Handle& file, Family family, const ReadOptions& options
 }  // namespace
 
 bool recognise(const std::string& path, Family family) {
+  const Turn turn;
   const auto file = open_file(path);
-  return file && find_layout(*file, family) != nullptr;
+  // What could not be read is no reason to take it for another format; open() says what is wrong.
+  return file ? find_layout(*file, family) != nullptr || !check_reading(*file)
+              : file.error().code == ErrorCode::io;
 }
 
 Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& options, Family family) {
   if (auto r = require_path(input, "HDF5"); !r) return r.error();
+  const Turn turn;
   auto file = open_file(input.path);
   if (!file) return file.error();
   const auto found = find(*file, family, options);
+  if (auto r = check_reading(*file); !r) return r.error();
   if (!found) return found.error();
   auto table = EventTable::open(*file, found->places);
   if (!table) return table.error();
@@ -290,6 +299,7 @@ Result<std::unique_ptr<EventSource>> open(Input input, const ReadOptions& option
     if (!value) return Error{ErrorCode::bad_input, "t_offset is no integer"};
     t_offset = value->front();
   }
+  if (auto r = check_reading(*file); !r) return r.error();
   return std::unique_ptr<EventSource>(std::make_unique<Reader>(*std::move(file), *std::move(table), *unit,
                                                                t_offset, name_of(family), input.bytes.total(),
                                                                std::move(input.name), *sensor, options));

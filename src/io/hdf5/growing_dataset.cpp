@@ -13,10 +13,11 @@ constexpr unsigned kDeflateLevel = 1;
 
 }  // namespace
 
-Result<GrowingDataset> GrowingDataset::create(const Handle& file, const std::string& path, hid_t type,
+Result<GrowingDataset> GrowingDataset::create(const OutputFile& file, const std::string& path, hid_t type,
                                               std::span<const size_t> row_shape, size_t rows_per_chunk) {
   const Turn turn;
   GrowingDataset made;
+  made.bytes_ = file.bytes();
   made.path_ = path;
   made.shape_ = {0};
   made.shape_.insert(made.shape_.end(), row_shape.begin(), row_shape.end());
@@ -33,12 +34,13 @@ Result<GrowingDataset> GrowingDataset::create(const Handle& file, const std::str
     made.dataset_ =
         Handle(H5Dcreate2(file.id(), path.c_str(), type, space.id(), links.id(), layout.id(), H5P_DEFAULT));
   }
-  if (!made.dataset_) return error_of(ErrorCode::io, "cannot create " + path);
+  if (!made.dataset_) return made.bytes_->error(path);
   return made;
 }
 
 Result<void> GrowingDataset::append(hid_t type, const void* values, size_t count) {
   const Turn turn;
+  if (auto r = bytes_->check(); !r) return r;  // libhdf5 knows nothing of it
   const hsize_t row = std::accumulate(shape_.begin() + 1, shape_.end(), hsize_t{1}, std::multiplies<>());
   std::vector<hsize_t> start(shape_.size(), 0);
   start[0] = shape_[0];
@@ -46,21 +48,20 @@ Result<void> GrowingDataset::append(hid_t type, const void* values, size_t count
   added[0] = count / row;
   if (added[0] == 0) return {};
   shape_[0] += added[0];
-  if (H5Dset_extent(dataset_.id(), shape_.data()) < 0)
-    return error_of(ErrorCode::io, "cannot extend " + path_);
+  if (H5Dset_extent(dataset_.id(), shape_.data()) < 0) return bytes_->error(path_);
   const Handle memory(H5Screate_simple(static_cast<int>(added.size()), added.data(), nullptr));
   const Handle place(H5Dget_space(dataset_.id()));
   if (H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, start.data(), nullptr, added.data(), nullptr) < 0 ||
       H5Dwrite(dataset_.id(), type, memory.id(), place.id(), H5P_DEFAULT, values) < 0) {
-    return error_of(ErrorCode::io, "cannot write " + path_);
+    return bytes_->error(path_);
   }
-  return {};
+  return bytes_->check();
 }
 
 Result<void> GrowingDataset::close() {
   const Turn turn;
-  if (!dataset_.close()) return error_of(ErrorCode::io, "cannot write " + path_);
-  return {};
+  if (!dataset_.close()) return bytes_->error(path_);
+  return bytes_->check();
 }
 
 }  // namespace scarf::hdf5

@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "io/hdf5/library.h"
+#include "io/hdf5/output_file.h"
 #include "scarf/result.h"
 
 namespace scarf::hdf5 {
@@ -47,7 +48,7 @@ class GrowingDataset {
   /// libhdf5 reads. `row_shape`: dimensions of a row, none for a column of numbers. Groups on the way to
   /// `path` are made. Errors: io.
   template <class T>
-  static Result<GrowingDataset> create(const Handle& file, const std::string& path,
+  static Result<GrowingDataset> create(const OutputFile& file, const std::string& path,
                                        std::span<const size_t> row_shape, size_t rows_per_chunk) {
     return create(file, path, native_type<T>(), row_shape, rows_per_chunk);
   }
@@ -62,10 +63,11 @@ class GrowingDataset {
   Result<void> close();
 
  private:
-  static Result<GrowingDataset> create(const Handle& file, const std::string& path, hid_t type,
+  static Result<GrowingDataset> create(const OutputFile& file, const std::string& path, hid_t type,
                                        std::span<const size_t> row_shape, size_t rows_per_chunk);
   Result<void> append(hid_t type, const void* values, size_t count);
 
+  std::shared_ptr<DriverFile> bytes_;  // of its file
   Handle dataset_;
   std::string path_;
   std::vector<hsize_t> shape_;  // all dimensions; the first is the number of rows so far
@@ -73,15 +75,15 @@ class GrowingDataset {
 
 /// Writes one number. Errors: io.
 template <class T>
-Result<void> write_scalar(const Handle& file, const std::string& path, T value) {
+Result<void> write_scalar(const OutputFile& file, const std::string& path, T value) {
   const Turn turn;
   const Handle space(H5Screate(H5S_SCALAR));
   const Handle dataset(H5Dcreate2(file.id(), path.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
                                   H5P_DEFAULT, H5P_DEFAULT));
   if (!dataset || H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0) {
-    return error_of(ErrorCode::io, "cannot write " + path);
+    return file.bytes()->error(path);
   }
-  return {};
+  return file.bytes()->check();
 }
 
 }  // namespace scarf::hdf5

@@ -1,6 +1,7 @@
 #include "io/hdf5/library.h"
 
 #include "core/text.h"
+#include "io/hdf5/file_driver.h"
 #include "io/hdf5/lzf_filter.h"
 
 namespace scarf::hdf5 {
@@ -34,23 +35,20 @@ Error error_of(ErrorCode code, const std::string& what) {
 Result<Handle> open_file(const std::string& path) {
   const Turn turn;
   register_lzf();
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file) return error_of(ErrorCode::bad_input, "cannot be opened as HDF5");
-  return file;
+  const auto bytes = DriverFile::open(path);
+  if (!bytes) return bytes.error();
+  const Handle access = driven_by(*bytes);  // closed behind the error, which it would make libhdf5 forget
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()));
+  if (file) return file;
+  if (const auto r = (*bytes)->check(); !r) return r.error();
+  return error_of(ErrorCode::bad_input, "cannot be opened as HDF5");
 }
 
-Result<Handle> create_file(const std::string& path) {
+Result<void> check_reading(const Handle& file) {
   const Turn turn;
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  if (!file) return error_of(ErrorCode::io, "cannot create the file");
-  return file;
-}
-
-Result<void> close_file(Handle& file) {
-  const Turn turn;
-  if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0 || !file.close())
-    return error_of(ErrorCode::io, "cannot write");
-  return {};
+  void* bytes = nullptr;
+  if (H5Fget_vfd_handle(file.id(), H5P_DEFAULT, &bytes) < 0 || bytes == nullptr) return {};
+  return static_cast<const DriverFile*>(bytes)->check();
 }
 
 }  // namespace scarf::hdf5

@@ -15,6 +15,23 @@ namespace scarf::hdf5 {
 /// Debian builds libhdf5 without its own lock: threads take turns.
 std::recursive_mutex& library_mutex();
 
+/// While one lives, no other thread calls libhdf5, and it prints nothing. What calls libhdf5 has one.
+class Turn {
+ public:
+  Turn() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Turn() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  const std::lock_guard<std::recursive_mutex> lock_{library_mutex()};
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
 /// Owns anything that libhdf5 has opened: a file, a dataset, a type, a property list.
 class Handle {
  public:
@@ -34,7 +51,7 @@ class Handle {
   /// Whether that went well; files and datasets may write while they are closed.
   bool close() {
     if (id_ < 0) return true;
-    const std::lock_guard lock(library_mutex());
+    const Turn turn;
     return H5Idec_ref(std::exchange(id_, H5I_INVALID_HID)) >= 0;
   }
 
@@ -42,31 +59,13 @@ class Handle {
   hid_t id_ = H5I_INVALID_HID;
 };
 
-/// While one lives, no other thread calls libhdf5, and it prints nothing. What calls libhdf5 has one.
-class Turn {
- public:
-  Turn() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Turn() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
- private:
-  const std::lock_guard<std::recursive_mutex> lock_{library_mutex()};
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
 /// `what`, and why libhdf5's last call failed.
 Error error_of(ErrorCode code, const std::string& what);
 
-/// Opens a file for reading. Errors: bad_input.
+/// Opens a regular file for reading. Errors: io; bad_input.
 Result<Handle> open_file(const std::string& path);
-/// Creates or replaces a file that every libhdf5 since 1.8 reads. Errors: io.
-Result<Handle> create_file(const std::string& path);
-/// Writes out and closes a file whose datasets are closed. Errors: io, also for a disk that is full.
-Result<void> close_file(Handle& file);
+/// Whether all that libhdf5 has read of such a file so far could be read. It passes over much of what cannot,
+/// as if it were not there. Errors: io.
+Result<void> check_reading(const Handle& file);
 
 }  // namespace scarf::hdf5

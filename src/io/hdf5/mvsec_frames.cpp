@@ -39,6 +39,7 @@ class MvsecFrames final : public FrameSource {
 
  private:
   Error broken(const Dataset& dataset, const Error& why) const {
+    if (const auto r = check_reading(file_); !r) return {ErrorCode::io, text(name_, ": ", r.error().message)};
     return {ErrorCode::bad_input, text(name_, ": frame ", at_, " in ", dataset.path(), ": ", why.message)};
   }
 
@@ -54,9 +55,11 @@ class MvsecFrames final : public FrameSource {
 
 Result<std::unique_ptr<FrameSource>> open_mvsec_frames(Input input, const ReadOptions& options) {
   if (auto r = require_path(input, "HDF5"); !r) return r.error();
+  const Turn turn;
   auto file = open_file(input.path);
   if (!file) return file.error();
   const Layout* const layout = find_layout(*file, Family::mvsec);
+  if (auto r = check_reading(*file); !r) return r.error();
   if (layout == nullptr) return Error{ErrorCode::bad_input, "has no events as mvsec has them"};
   const auto events = place_of(*file, *layout, options.stream);
   if (!events) return events.error();
@@ -74,6 +77,7 @@ Result<std::unique_ptr<FrameSource>> open_mvsec_frames(Input input, const ReadOp
   const auto size = checked_sensor(static_cast<int64_t>(images->shape()[2]),
                                    static_cast<int64_t>(images->shape()[1]), images->path());
   if (!size) return size.error();
+  if (auto r = check_reading(*file); !r) return r.error();
   return std::unique_ptr<FrameSource>(std::make_unique<MvsecFrames>(*std::move(file), *std::move(images),
                                                                     *std::move(times), *size, input.name));
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "hdf5_test_helpers.h"
+#include "tests/support/small_disk.h"
 
 namespace scarf {
 namespace {
@@ -77,6 +78,34 @@ TEST_F(DsecWriterForOthers, H5pyReadsIt) {
   const int status = python("check-dsec", path("dsec.h5"));
   if (status == kModuleMissing) GTEST_SKIP() << kMissing;
   ASSERT_EQ(status, 0);
+}
+
+// libhdf5 crashes when a program ends whose files it could not write.
+TEST(DsecWriterDeathTest, AFullDiskIsAnErrorAndTheProgramEndsWell) {
+  const TemporaryFolder folder;
+  const test::SmallDisk disk(folder.path(), 1 << 20);
+  if (!disk) GTEST_SKIP() << disk.why();
+  const auto events = sample_events();
+  const std::string file = folder.path() + "/events.h5";
+  for (const size_t space : {0, 20'000, 60'000, 120'000}) {
+    disk.leave(space);
+    const std::string error = written(file, events, 10'000);
+    EXPECT_EQ(error, "cannot write " + file + ": No space left on device");
+    EXPECT_EQ(disk.content(), "");
+    // Also with a writer that is never destroyed, and one that goes on after the error.
+    const auto leave_open = [&] {
+      auto created = create_events(file, "dsec", kSensor);
+      if (!created) std::exit(0);
+      EventSink* const sink = created->release();
+      for (size_t at = 0; at + 10'000 <= events.size(); at += 10'000) {
+        if (!sink->write(std::span(events).subspan(at, 10'000))) break;
+      }
+      const auto again = sink->write(std::span(events).last(70'000));
+      const auto finished = sink->finish();
+      std::exit(!again && !finished ? 0 : 1);
+    };
+    EXPECT_EXIT(leave_open(), testing::ExitedWithCode(0), "^$");
+  }
 }
 
 }  // namespace

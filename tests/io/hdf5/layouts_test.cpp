@@ -1,5 +1,6 @@
 // Every layout of HDF5, out of files that h5py writes: real events, re-encoded.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "hdf5_test_helpers.h"
 #include "scarf/digest.h"
@@ -300,6 +301,12 @@ TEST_F(Hdf5, RefusesWhatItMustNotRead) {
   EXPECT_THAT(read("huge-chunk").error, AllOf(HasSubstr("chunks of more than"), HasSubstr("h5repack")));
   EXPECT_THAT(read("external").error, HasSubstr("other files"));
   EXPECT_THAT(read("external-link").error, HasSubstr("no events"));
+  if (!make({"virtual", "virtual-unlimited", "virtual-size"})) GTEST_SKIP() << kMissing;
+  alarm(60);  // who opens the pipe that they name waits for ever
+  EXPECT_THAT(read("virtual").error, HasSubstr("other files"));
+  EXPECT_THAT(read("virtual-unlimited").error, HasSubstr("other files"));
+  EXPECT_EQ(read("virtual-size").sensor, std::nullopt) << "a width that lies elsewhere is none";
+  alarm(0);
   EXPECT_THAT(read("zstd").error, AllOf(HasSubstr("Zstandard"), HasSubstr("32015"), HasSubstr("events/x")));
   const std::string error = read("no-events").error;
   EXPECT_THAT(error, AllOf(HasSubstr("no-events.h5"), HasSubstr("no events"), Not(HasSubstr("\n"))));

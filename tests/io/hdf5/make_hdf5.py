@@ -4,6 +4,7 @@
   make_hdf5.py check-dsec EVENTS IN  whether h5py finds those events in a DSEC file, with a right index
 Exit status 77: h5py, or a filter that the layout needs, is not installed.
 """
+import os
 import struct
 import sys
 
@@ -299,6 +300,21 @@ def write(layout, e, f):
     elif layout == "external":
         f.create_dataset("events/x", shape=(100,), dtype="u1", external=[("/etc/passwd", 0, 100)])
         columns(f, "events", e[:100], names=["y", "y2", "t", "p"])
+        f["events/height"] = 720
+    elif layout in ("virtual", "virtual-unlimited", "virtual-size"):
+        # Of a pipe: whoever opens it waits.
+        os.mkfifo(f.filename + ".pipe")
+        n = 1 if layout == "virtual-size" else 100
+        limit = h5py.h5s.UNLIMITED if layout == "virtual-unlimited" else n
+        spaces = [h5py.h5s.create_simple((n,), (limit,)) for _ in range(3)]
+        if limit != n:
+            for space in spaces[:2]:
+                space.select_hyperslab((0,), (1,), (1,), (h5py.h5s.UNLIMITED,))
+        properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        properties.set_virtual(spaces[0], (f.filename + ".pipe").encode(), b"/d", spaces[1])
+        columns(f, "events", e[:100], names=["x" if layout == "virtual-size" else "x2", "y", "t", "p"])
+        name = b"width" if layout == "virtual-size" else b"x"
+        h5py.h5d.create(f["events"].id, name, h5py.h5t.NATIVE_UINT16, spaces[2], properties)
         f["events/height"] = 720
     elif layout == "external-link":
         columns(f, "events", e[:100], names=["x2", "y", "t", "p"])
