@@ -183,7 +183,7 @@ TEST(Misuse, AForkedChildIsTold) {
             }),
             0);
   EXPECT_EQ(exit_code_of([&] {
-              const auto own = GpuContext::create({.cache_folder = "-"});
+              const auto own = GpuContext::create();
               if (!own) return false;
               const auto stream = make_gpu_scarf(*own, geometry);
               return stream && (*stream)->push(events) && (*stream)->u8_image().wait();
