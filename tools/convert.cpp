@@ -17,13 +17,14 @@ struct ConvertOptions {
   CopyTarget target;
 };
 
-Result<int> convert(const ConvertOptions& options) {
+Result<int> convert(const ConvertOptions& options, const OutputRule& rule) {
+  if (auto r = rule.check(options.target.path); !r) return r.error();
   const auto source = open_events(options.file, options.read);
   if (!source) return source.error();
   const auto sensor = require_sensor(**source, options.file);
   if (!sensor) return sensor.error();
   const auto copied = copy_recording(
-      **source, [](Event&) { return true; }, *sensor, options.target);
+      **source, [](Event&) { return true; }, *sensor, options.target, rule);
   if (!copied) return copied.error();
   const ReadReport& report = (*source)->report();
   std::string changed;
@@ -44,10 +45,12 @@ Result<int> convert(const ConvertOptions& options) {
 void add_convert(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("convert", "A recording in another format");
   auto options = std::make_shared<ConvertOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_copy_target(*app, options->target);
   add_read_options(*app, options->read);
-  app->callback([&command, options] { command.run = [options] { return convert(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return convert(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

@@ -77,7 +77,8 @@ Result<Region> parse_region(const std::string& word) {
   return r;
 }
 
-Result<int> cut(const CutOptions& options) {
+Result<int> cut(const CutOptions& options, const OutputRule& rule) {
+  if (auto r = rule.check(options.target.path); !r) return r.error();
   if (options.from >= options.to) {
     return illegal(
         text("no time is from ", options.from, " to ", options.to, " us; --from must be below --to"));
@@ -104,7 +105,7 @@ Result<int> cut(const CutOptions& options) {
     e.y = static_cast<uint16_t>(y);
     return true;
   };
-  const auto copied = copy_recording(**source, choose, {region.width, region.height}, options.target);
+  const auto copied = copy_recording(**source, choose, {region.width, region.height}, options.target, rule);
   if (!copied) return copied.error();
   remarks(options.target) << text("cut ", copied->events, " events out of ", copied->events + copied->left,
                                   " from ", (*source)->format(), " to ", copied->format,
@@ -118,7 +119,7 @@ Result<int> cut(const CutOptions& options) {
 void add_cut(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("cut", "A part of a recording, by time, number of events or region");
   auto options = std::make_shared<CutOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_copy_target(*app, options->target);
   add_parsed_option(*app, "--from", options->from, parse_whole<int64_t>, "Earliest time of an event, us");
   add_parsed_option(*app, "--to", options->to, parse_whole<int64_t>, "First time too late, us");
@@ -127,7 +128,9 @@ void add_cut(CLI::App& program, Command& command) {
   add_parsed_option(*app, "--roi", options->region, parse_region,
                     "X,Y,WIDTH,HEIGHT: a region of the sensor, which becomes the sensor of the output");
   add_read_options(*app, options->read);
-  app->callback([&command, options] { command.run = [options] { return cut(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return cut(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

@@ -3,7 +3,7 @@
 
 #include "core/text.h"
 #include "tools/commands.h"
-#include "tools/files.h"
+#include "tools/file_options.h"
 #include "tools/pictures.h"
 #include "tools/read_options.h"
 
@@ -18,26 +18,26 @@ struct FramesOptions {
   ReadOptions read;
 };
 
-Result<int> frames(const FramesOptions& options) {
+Result<int> frames(const FramesOptions& options, const OutputRule& rule) {
+  if (auto r = PictureFolder::check(options.output, {kName}, rule); !r) return r.error();
   const auto source = open_frames(options.file, options.read);
   if (!source) return source.error();
-  if (auto r = make_picture_folder(options.output, {kName}); !r) return r.error();
+  auto folder = PictureFolder::create(options.output, {kName}, rule);
+  if (!folder) return folder.error();
   std::string list = "index,t_us,exposure_begin_us,exposure_end_us\n";
-  // A recording may break off: the list names the pictures before that, too.
-  const auto write_list = [&] { return write_file(text(options.output, "/", kPictureList), list); };
   for (uint64_t index = 0;; ++index) {
     const auto frame = (*source)->read();
     if (!frame) {
-      if (auto r = write_list(); !r) return r.error();
+      // A recording may break off: the pictures before that are kept, and the list names them.
+      if (auto r = folder->finish(list); !r) return r.error();
       return frame.error();
     }
     if (!*frame) break;
     const GreyFrame& f = **frame;
-    const std::string picture = text(options.output, "/", numbered_picture(kName, index));
-    if (auto r = write_picture(picture, as_picture(f.image)); !r) return r.error();
+    if (auto r = folder->write(kName, index, as_picture(f.image)); !r) return r.error();
     list += text(index, ",", f.t, ",", f.exposure_begin, ",", f.exposure_end, "\n");
   }
-  if (auto r = write_list(); !r) return r.error();
+  if (auto r = folder->finish(list); !r) return r.error();
   return 0;
 }
 
@@ -47,11 +47,14 @@ void add_frames(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand(
       "frames", "The greyscale frames of a recording as frame_NNNNNN.png, and frames.csv with their times");
   auto options = std::make_shared<FramesOptions>();
-  app->add_option("file", options->file, "Recording, or its folder")->required();
-  app->add_option("-o,--output", options->output, "Folder to write; frames of an earlier run are removed")
+  add_input_option(*app, "file", options->file, "Recording, or its folder")->required();
+  add_output_option(*app, "-o,--output", options->output,
+                    "Folder to write; with --overwrite frames of an earlier run are replaced")
       ->required();
   add_read_options(*app, options->read);
-  app->callback([&command, options] { command.run = [options] { return frames(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return frames(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

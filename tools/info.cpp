@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "scarf/digest.h"
 #include "tools/commands.h"
+#include "tools/file_options.h"
 #include "tools/play.h"
 #include "tools/progress.h"
 #include "tools/read_options.h"
@@ -117,7 +118,7 @@ Result<int> info(const InfoOptions& options) {
 void add_info(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("info", "Format, sensor, events and oddities of a recording");
   auto options = std::make_shared<InfoOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_read_options(*app, options->read);
   app->add_flag("--digest", options->digest, "Also the SHA-256 of the decoded events");
   app->add_flag("--json", options->json, "As JSON");

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "core/text.h"
+#include "io/format.h"
 #include "scarf/digest.h"
+#include "tools/file_options.h"
 #include "tools/output_format.h"
 #include "tools/play.h"
 #include "tools/progress.h"
@@ -28,7 +30,7 @@ Result<std::string> digest_of(const std::string& path, const std::string& format
 }  // namespace
 
 Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorSize sensor,
-                              const CopyTarget& target) {
+                              const CopyTarget& target, const OutputRule& rule) {
   const auto format = output_format(target.path, target.format);
   if (!format) return format.error();
   if (target.check && target.path == "-") {
@@ -36,7 +38,7 @@ Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorS
         ErrorCode::illegal_parameter,
         "--check reads the copy again, which standard output cannot do; name a file, or leave it out"};
   }
-  const auto sink = create_events(target.path, *format, sensor);
+  const auto sink = create_recording(target.path, *format, sensor, rule);
   if (!sink) return sink.error();
 
   Copied copied;
@@ -76,17 +78,17 @@ Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorS
 }
 
 void add_copy_target(CLI::App& app, CopyTarget& target) {
-  app.add_option(
-         "output", target.path,
-         "Recording to write, in the format of its name (" + output_extensions() + "); - is standard output")
+  add_output_option(
+      app, "output", target.path,
+      "Recording to write, in the format of its name (" + output_extensions() + "); - is standard output")
       ->required();
-  app.add_option("--output-format", target.format,
-                 "Format of the output, where its name does not tell; see scarf formats");
+  add_word_option(app, "--output-format", target.format,
+                  "Format of the output, where its name does not tell; see scarf formats");
   app.add_flag("--check", target.check, "Read the output again and compare it with what was written");
 }
 
 std::ostream& remarks(const CopyTarget& target) {
-  return target.path == "-" ? std::cerr : std::cout;
+  return target.path == "-" || target.path == "/dev/stdout" ? std::cerr : std::cout;
 }
 
 std::string losses(const EventSource& source) {

@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "io/output_files.h"
 #include "scarf/io.h"
 
 namespace scarf::tools {
@@ -29,9 +30,9 @@ struct Copied {
 using Choose = std::function<bool(Event&)>;
 
 /// Writes the events of the source that `choose` wants, for a sensor of that size. Errors: whatever source
-/// and sink return; bad_input, if the copy was to be checked and is not what was written.
+/// and sink return, as create_events; bad_input, if the copy was to be checked and is not what was written.
 Result<Copied> copy_recording(EventSource& source, const Choose& choose, SensorSize sensor,
-                              const CopyTarget& target);
+                              const CopyTarget& target, const OutputRule& rule);
 
 /// The output, its format and --check, as options of a sub-command.
 void add_copy_target(CLI::App& app, CopyTarget& target);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "io/byte_reader.h"
+#include "io/output_files.h"
 #include "io/prophesee_header.h"
 #include "scarf/frames.h"
 #include "scarf/io.h"
@@ -57,7 +58,8 @@ struct Format {
   std::string_view missing = {};  ///< not built in: the library and Debian package that it needs
   bool (*recognise)(const Beginning&) = nullptr;  ///< none: by name, or by a Prophesee header
   Result<std::unique_ptr<EventSource>> (*open)(Input, const ReadOptions&) = nullptr;
-  Result<std::unique_ptr<EventSink>> (*create)(const std::string& path, SensorSize sensor) = nullptr;
+  Result<std::unique_ptr<EventSink>> (*create)(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) = nullptr;
   Result<std::unique_ptr<FrameSource>> (*open_frames)(Input, const ReadOptions&) = nullptr;
   Result<std::unique_ptr<TriggerSource>> (*open_triggers)(Input, const ReadOptions&) = nullptr;
 };
@@ -66,6 +68,10 @@ struct Format {
 std::span<const Format* const> all_formats();
 /// Errors: illegal_parameter, naming those that exist.
 Result<const Format*> find_format(std::string_view name);
+
+/// What create_events does, under a rule that more than one output may share. Errors: the same.
+Result<std::unique_ptr<EventSink>> create_recording(const std::string& path, std::string_view format,
+                                                    SensorSize sensor, const OutputRule& rule);
 
 /// Errors: bad_input, for an input that is a pipe or memory: `title` needs a file.
 Result<void> require_path(const Input& input, std::string_view title);

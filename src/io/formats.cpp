@@ -77,7 +77,12 @@ std::vector<FormatInfo> formats() {
 }
 
 Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view name,
-                                                 SensorSize sensor) {
+                                                 SensorSize sensor, const WriteOptions& options) {
+  return create_recording(path, name, sensor, OutputRule(options.overwrite, options.inputs));
+}
+
+Result<std::unique_ptr<EventSink>> create_recording(const std::string& path, std::string_view name,
+                                                    SensorSize sensor, const OutputRule& rule) {
   const auto format = find_format(name);
   if (!format) return format.error();
   if ((*format)->create == nullptr) {
@@ -87,7 +92,7 @@ Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::s
   }
   const auto legal = checked_sensor(sensor.width, sensor.height, text(path, ": the sensor size given"));
   if (!legal) return Error{ErrorCode::illegal_parameter, legal.error().message};
-  return (*format)->create(path, sensor);
+  return (*format)->create(path, sensor, rule);
 }
 
 }  // namespace scarf

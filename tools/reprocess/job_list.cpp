@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "tools/owned_files.h"
 #include "tools/reprocess/manifest.h"
 #include "tools/reprocess/result_place.h"
 
@@ -89,14 +90,35 @@ class FolderWalk {
       entries.push_back(entry->path());
     }
     if (error) settle(relative, Status::failed, text("cannot list ", folder.string(), ": ", error.message()));
+    const auto ours = results_in(folder, entries);
     for (const fs::path& entry : entries) {
       const std::string name = entry.filename().string();
+      if (is_list_name(name) || ours.contains(name)) continue;
       visit(entry, relative.empty() ? name : text(relative, "/", name));
     }
     above_.pop_back();
   }
 
+  // Where results go beside their recordings they are no recordings themselves.
+  std::set<std::string> results_in(const fs::path& folder, const std::vector<fs::path>& entries) const {
+    std::set<std::string> ours;
+    if (above_.front() != out_) return ours;
+    for (const fs::path& list : entries) {
+      if (!is_list_name(list.filename().string())) continue;
+      const auto owned = OwnedFiles::read(folder.string(), list.filename().string());
+      if (!owned) continue;
+      for (const fs::path& entry : entries) {
+        if (owned->owns(entry.filename().string())) ours.insert(entry.filename().string());
+      }
+    }
+    return ours;
+  }
+
   void visit(const fs::path& entry, const std::string& relative) {
+    if (is_temporary_name(entry.filename().string())) {
+      return settle(relative, Status::skipped,
+                    "an unfinished output of scarf, left by a run that was killed");
+    }
     std::error_code error;
     const fs::file_status status = fs::status(entry, error);
     if (status.type() == fs::file_type::not_found || status.type() == fs::file_type::none) {
@@ -191,7 +213,7 @@ Result<void> check_places(const std::vector<Job>& jobs) {
   for (const Job& job : jobs) {
     std::vector<std::string> mine = {text(job.relative, kRecordSuffix),
                                      text(job.relative, kUnfinishedSuffix)};
-    for (const std::string& suffix : suffixes_of(job.settings)) {
+    for (const std::string& suffix : result_suffixes(job.settings)) {
       mine.push_back(job.relative + suffix.substr(0, suffix.size() - (suffix.ends_with('/') ? 1 : 0)));
     }
     for (const std::string& place : mine) {

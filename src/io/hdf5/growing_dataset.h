@@ -76,8 +76,10 @@ template <class T>
 Result<void> write_scalar(const Handle& file, const std::string& path, T value) {
   const Turn turn;
   const Handle space(H5Screate(H5S_SCALAR));
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(creation.id(), false);  // see GrowingDataset::create
   const Handle dataset(H5Dcreate2(file.id(), path.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT));
+                                  creation.id(), H5P_DEFAULT));
   if (!dataset || H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0) {
     return error_of(ErrorCode::io, "cannot write " + path);
   }
