@@ -19,7 +19,7 @@ Result<void> write_report(const BenchOptions& options, const DeviceInfo* device,
     report["device"] = device->name;
     report["driver"] = device->driver;
   }
-  return write_file(options.json, report.dump(1) + "\n");
+  return write_file(options.json, report.dump(1) + "\n", options.rule);
 }
 
 namespace {
@@ -32,6 +32,11 @@ Result<int> bench(const BenchOptions& options) {
   if (options.sensor && !options.paper && !options.io) {
     return Error{ErrorCode::illegal_parameter, "--geometry is used by --paper and --io only; leave it out"};
   }
+  std::vector<std::string> files;
+  for (const std::string& file : {options.json, options.csv, options.plot}) {
+    if (!file.empty()) files.push_back(file);
+  }
+  if (auto r = options.rule.check(files); !r) return r.error();
   if (options.io) return bench_io(options);
   if (options.wire) return bench_wire(options);
   if (options.replay) return bench_replay(options);
@@ -53,6 +58,7 @@ void add_parameter_options(CLI::App& app, BenchOptions& options, CLI::Option* re
     app.add_option_function<std::string>(
            "--" + name, [&options, key = name](const std::string& word) { options.parameters[key] = word; },
            line)
+        ->type_name(kWordType)
         ->needs(representation)
         ->group("Parameters of the representation");
   }
@@ -73,9 +79,9 @@ void add_bench(CLI::App& program, Command& command) {
              "--wire", options->wire,
              "Bytes per event on the way to a device that has memory of its own, and the cost of packing")
           ->excludes(stages);
-  app->add_option("--recordings", options->recordings, "Recordings to measure besides the scenes")
+  add_input_option(*app, "--recordings", options->recordings, "Recordings to measure besides the scenes")
       ->needs(wire);
-  app->add_option("--json", options->json, "Write the results to this file as well");
+  add_output_option(*app, "--json", options->json, "Write the results to this file as well");
   std::vector<std::string> names;
   for (const RepresentationInfo& info : representations()) names.push_back(info.name);
   CLI::Option* representation =
@@ -97,8 +103,9 @@ void add_bench(CLI::App& program, Command& command) {
                         ->excludes(stages)
                         ->excludes(representation)
                         ->group(reading);
-  app->add_option("recordings", options->recordings,
-                  "Recordings to read; without any, one of a synthetic scene in every format that is written")
+  add_input_option(
+      *app, "recordings", options->recordings,
+      "Recordings to read; without any, one of a synthetic scene in every format that is written")
       ->needs(io)
       ->group(reading);
   const std::string costs = "The paper's costs";
@@ -108,7 +115,8 @@ void add_bench(CLI::App& program, Command& command) {
                            ->excludes(stages)
                            ->excludes(wire)
                            ->group(costs);
-  app->add_option("--file", options->file, "Events of this recording; else of a simulated shaking camera")
+  add_input_option(*app, "--file", options->file,
+                   "Events of this recording; else of a simulated shaking camera")
       ->needs(paper)
       ->group(costs);
   add_parsed_option(
@@ -116,8 +124,10 @@ void add_bench(CLI::App& program, Command& command) {
       "Sensor size WxH, of the simulation (default: 240x180 and 1280x720), or of a recording that "
       "does not say")
       ->group(costs);
-  app->add_option("--csv", options->csv, "Write the results to this file as CSV")->needs(paper)->group(costs);
-  app->add_option("--plot", options->plot, "Write the figure to this file as SVG")
+  add_output_option(*app, "--csv", options->csv, "Write the results to this file as CSV")
+      ->needs(paper)
+      ->group(costs);
+  add_output_option(*app, "--plot", options->plot, "Write the figure to this file as SVG")
       ->needs(paper)
       ->group(costs);
 
@@ -141,7 +151,7 @@ void add_bench(CLI::App& program, Command& command) {
       ->excludes(representation);
 
   const std::string work = "Work";
-  CLI::Option* device = app->add_option("--device", options->device.device,
+  CLI::Option* device = add_word_option(*app, "--device", options->device.device,
                                         "Index, part of the name, UUID or type of the device")
                             ->group(work);
   CLI::Option* require_gpu =
@@ -151,7 +161,12 @@ void add_bench(CLI::App& program, Command& command) {
       ->excludes(device)
       ->excludes(require_gpu)
       ->group(work);
-  app->callback([&command, options] { command.run = [options] { return bench(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] {
+      options->rule = output_rule(*app);
+      return bench(*options);
+    };
+  });
 }
 
 }  // namespace scarf::tools

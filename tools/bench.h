@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/ceilings.h"
+#include "io/output_files.h"
 #include "scarf/gpu.h"
 #include "scarf/parameters.h"
 
@@ -32,6 +33,7 @@ struct BenchOptions {
   std::optional<SensorSize> sensor;               ///< with `paper` and `io`
   std::string json, csv, plot;                    ///< files to write; empty: none
   DeviceOptions device;
+  OutputRule rule;  ///< of the files to write
 };
 
 /// Of what all benchmarks write (docs/JSON.md).

@@ -1,7 +1,5 @@
 // scarf bench --io: the readers, each beside the plain reading of its file and, where blocks are compressed,
 // beside their unpacking alone.
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -9,6 +7,7 @@
 #include "bench/reading.h"
 #include "bench/scenes.h"
 #include "core/text.h"
+#include "io/output_files.h"
 #include "tools/bench.h"
 
 namespace scarf::tools {
@@ -17,24 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr SensorSize kSensor = {1280, 720};
-
-// A folder for recordings that goes away with them.
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / text("scarf_bench_", getpid())) {
-    fs::create_directories(path_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 Result<void> write_recording(const std::string& path, const std::string& format,
                              std::span<const Event> events) {
@@ -86,15 +67,16 @@ Result<int> bench_io(const BenchOptions& options) {
   if (options.recordings.empty()) {
     const std::vector<Event> events =
         bench::make_scene(bench::Scene::edges, kSensor, options.quick ? 400'000 : 4'000'000);
-    const Scratch scratch;
+    const auto scratch = ScratchFolder::create((fs::temp_directory_path() / "scarf_bench").string());
+    if (!scratch) return scratch.error();
     for (const FormatInfo& format : formats()) {
       if (!format.written || !format.missing.empty()) continue;
-      const std::string path = scratch.file(format.name);
+      const std::string path = scratch->file(format.name);
       if (auto r = write_recording(path, format.name, events); !r) return r.error();
       ReadOptions read;
       if (!format.recognised) read = {kSensor, format.name};
       if (auto r = measure("edges", path, read, repeats, results); !r) return r.error();
-      fs::remove_all(path);
+      if (auto r = remove_file(path); !r) return r.error();
     }
   }
   if (auto r = write_report(options, nullptr, {{"results", results}}); !r) return r.error();

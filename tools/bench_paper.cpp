@@ -127,11 +127,11 @@ nlohmann::json json_of(const bench::PaperRow& row, const char* implementation,
 Result<void> write_files(const BenchOptions& options, const std::vector<bench::PaperRow>& rows,
                          const nlohmann::json& head, const std::string& device_name) {
   if (!options.csv.empty()) {
-    if (auto r = write_file(options.csv, bench::csv(rows)); !r) return r;
+    if (auto r = write_file(options.csv, bench::csv(rows), options.rule); !r) return r;
   }
   if (!options.plot.empty()) {
     const std::string plot = bench::svg(bench::throughput_plot(rows, device_name));
-    if (auto r = write_file(options.plot, plot); !r) return r;
+    if (auto r = write_file(options.plot, plot, options.rule); !r) return r;
   }
   if (options.json.empty()) return {};
   nlohmann::json report = head;
@@ -140,7 +140,7 @@ Result<void> write_files(const BenchOptions& options, const std::vector<bench::P
     report["results"].push_back(json_of(row, "reference", row.reference));
     report["results"].push_back(json_of(row, "gpu", row.device));
   }
-  return write_file(options.json, report.dump(1) + "\n");
+  return write_file(options.json, report.dump(1) + "\n", options.rule);
 }
 
 }  // namespace

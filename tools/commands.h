@@ -16,11 +16,16 @@ struct Command {
   std::function<Result<int>()> run;
 };
 
+/// All that this build has.
+void add_commands(CLI::App& program, Command& command);
+
 // Each adds its sub-command to `program`, in this manner:
 //   CLI::App* app = program.add_subcommand("digest", "...");
 //   auto options = std::make_shared<DigestOptions>();
-//   app->add_option("file", options->file, "...")->required();
-//   app->callback([&command, options] { command.run = [options] { return digest(*options); }; });
+//   add_input_option(*app, "file", options->file, "...")->required();
+//   app->callback([&command, app, options] {
+//     command.run = [app, options] { return digest(*options, output_rule(*app)); };
+//   });
 void add_bench(CLI::App& program, Command& command);
 void add_compare(CLI::App& program, Command& command);
 void add_convert(CLI::App& program, Command& command);

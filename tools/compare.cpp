@@ -4,6 +4,7 @@
 #include "core/text.h"
 #include "tools/commands.h"
 #include "tools/compare_states.h"
+#include "tools/file_options.h"
 #include "tools/state_dump.h"
 
 namespace scarf::tools {
@@ -52,8 +53,8 @@ Result<int> compare(const CompareOptions& options) {
 void add_compare(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("compare", "Compare two state dumps of scarf digest --dump");
   auto options = std::make_shared<CompareOptions>();
-  app->add_option("a", options->a, "State dump")->required();
-  app->add_option("b", options->b, "State dump")->required();
+  add_input_option(*app, "a", options->a, "State dump")->required();
+  add_input_option(*app, "b", options->b, "State dump")->required();
   app->callback([&command, options] { command.run = [options] { return compare(*options); }; });
 }
 

@@ -17,7 +17,8 @@ struct ConvertOptions {
   CopyTarget target;
 };
 
-Result<int> convert(const ConvertOptions& options) {
+Result<int> convert(const ConvertOptions& options, const OutputRule& rule) {
+  if (auto r = rule.check(options.target.path); !r) return r.error();
   const auto source = open_events(options.file, options.read);
   if (!source) return source.error();
   const auto sensor = require_sensor(**source, options.file);
@@ -25,7 +26,7 @@ Result<int> convert(const ConvertOptions& options) {
   const Choose everything = {.event = [](Event&) { return true; },
                              .trigger = [](const Trigger&) { return true; }};
   const auto copied =
-      copy_recording({**source, options.file, options.read}, everything, *sensor, options.target);
+      copy_recording({**source, options.file, options.read}, everything, *sensor, options.target, rule);
   if (!copied) return copied.error();
   const ReadReport& report = (*source)->report();
   std::string changed;
@@ -45,10 +46,12 @@ Result<int> convert(const ConvertOptions& options) {
 void add_convert(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("convert", "A recording in another format");
   auto options = std::make_shared<ConvertOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_copy_target(*app, options->target);
   add_read_options(*app, options->read);
-  app->callback([&command, options] { command.run = [options] { return convert(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return convert(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

@@ -115,7 +115,8 @@ Result<TimeWindow> window_of(const CutOptions& options, int64_t first) {
   return illegal(text("no time is from ", window.from, " to ", window.to, " us; --from must be below --to"));
 }
 
-Result<int> cut(const CutOptions& options) {
+Result<int> cut(const CutOptions& options, const OutputRule& rule) {
+  if (auto r = rule.check(options.target.path); !r) return r.error();
   // Told before the recording is opened, where that can be known.
   const bool is_relative = (options.from && options.from->relative) || (options.to && options.to->relative);
   const bool comparable = !options.from || !options.to || options.from->relative == options.to->relative;
@@ -156,7 +157,7 @@ Result<int> cut(const CutOptions& options) {
     return true;
   };
   const auto copied = copy_recording({**source, options.file, options.read}, choose,
-                                     {region.width, region.height}, options.target);
+                                     {region.width, region.height}, options.target, rule);
   if (!copied) return copied.error();
   remarks(options.target) << text("cut ", copied->events, " events out of ", copied->events + copied->left,
                                   " from ", (*source)->format(), " to ", copied->format,
@@ -170,7 +171,7 @@ Result<int> cut(const CutOptions& options) {
 void add_cut(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("cut", "A part of a recording, by time, number of events or region");
   auto options = std::make_shared<CutOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
+  add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_copy_target(*app, options->target);
   add_parsed_option(
       *app, "--from", options->from, parse_time_point,
@@ -184,7 +185,9 @@ void add_cut(CLI::App& program, Command& command) {
   add_parsed_option(*app, "--roi", options->region, parse_region,
                     "X,Y,WIDTH,HEIGHT: a region of the sensor, which becomes the sensor of the output");
   add_read_options(*app, options->read);
-  app->callback([&command, options] { command.run = [options] { return cut(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return cut(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

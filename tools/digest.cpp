@@ -19,7 +19,10 @@ struct DigestOptions {
   std::string dump;
 };
 
-Result<int> digest(const DigestOptions& options) {
+Result<int> digest(const DigestOptions& options, const OutputRule& rule) {
+  if (!options.dump.empty()) {
+    if (auto r = rule.check(options.dump); !r) return r.error();
+  }
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
   const auto implementation = make_implementation(options.stream, recording->sensor);
@@ -56,7 +59,7 @@ Result<int> digest(const DigestOptions& options) {
     }
     const auto snapshot = scarf->snapshot().wait();
     if (!snapshot) return snapshot.error();
-    if (auto r = write_state_dump(options.dump, *snapshot); !r) return r.error();
+    if (auto r = write_state_dump(options.dump, *snapshot, rule); !r) return r.error();
   }
   const auto filtered = filter_lines(options.stream, representation);
   if (!filtered) return filtered.error();
@@ -74,8 +77,10 @@ void add_digest(CLI::App& program, Command& command) {
       program.add_subcommand("digest", "SHA-256 of the final state, image and events of a recording");
   auto options = std::make_shared<DigestOptions>();
   add_stream_options(*app, options->stream);
-  app->add_option("--dump", options->dump, "File to write the hashed state to, for scarf compare");
-  app->callback([&command, options] { command.run = [options] { return digest(*options); }; });
+  add_output_option(*app, "--dump", options->dump, "File for the hashed state, for scarf compare");
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return digest(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

@@ -25,9 +25,10 @@ Result<void> check_event_list(const std::string& path) {
                text("sparse events cannot be written as ", path, "; use a name that ends in .h5 or .npz")};
 }
 
-Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor) {
+Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor,
+                                                                const OutputRule& rule) {
   if (auto r = check_event_list(path); !r) return r.error();
-  return is_hdf5(path) ? create_hdf5_events(path, sensor) : create_npz_events(path);
+  return is_hdf5(path) ? create_hdf5_events(path, sensor, rule) : create_npz_events(path, rule);
 }
 
 }  // namespace scarf::tools

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "io/output_files.h"
 #include "scarf/event.h"
 #include "scarf/result.h"
 #include "tools/instants.h"
@@ -25,7 +26,8 @@ Result<void> check_event_list(const std::string& path);
 
 /// By the name: .h5 and .hdf5 (see hdf5_writer.h), .npz (arrays x, y, p, t of all events, one frame after the
 /// other; frame_offsets, one more than there are frames; times, stream_events). Errors: illegal_parameter for
-/// other names, and where this build lacks the library; io.
-Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor);
+/// other names, and where this build lacks the library; as OutputFile::create.
+Result<std::unique_ptr<EventListWriter>> make_event_list_writer(const std::string& path, SensorSize sensor,
+                                                                const OutputRule& rule);
 
 }  // namespace scarf::tools

@@ -4,8 +4,8 @@
 
 namespace scarf::tools {
 
-Result<void> write_file(const std::string& path, std::string_view content) {
-  auto file = ByteWriter::create(path);
+Result<void> write_file(const std::string& path, std::string_view content, const OutputRule& rule) {
+  auto file = ByteWriter::create(path, rule);
   if (!file) return file.error();
   file->append(content);
   return file->finish();

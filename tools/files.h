@@ -4,11 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "io/output_files.h"
 #include "scarf/result.h"
 
 namespace scarf::tools {
 
-/// Errors: io, also for a disk that is full.
-Result<void> write_file(const std::string& path, std::string_view content);
+/// Errors: as OutputFile::create; io, also for a disk that is full.
+Result<void> write_file(const std::string& path, std::string_view content, const OutputRule& rule);
 
 }  // namespace scarf::tools

@@ -28,7 +28,7 @@ void add_frame_options(CLI::App& app, FrameOptions& o) {
                         ->check(CLI::IsMember({"end"}))
                         ->group(when);
   CLI::Option* times =
-      app.add_option("--at-times", o.times_file, "File with one time per line, in us")->group(when);
+      add_input_option(app, "--at-times", o.times_file, "File with one time per line, in us")->group(when);
   rate->excludes(every)->excludes(at)->excludes(times);
   every->excludes(at)->excludes(times);
   at->excludes(times);

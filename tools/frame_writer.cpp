@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "core/text.h"
-#include "io/atomic_file.h"
 #include "tools/files.h"
 #include "tools/hdf5_writer.h"
 #include "tools/npy_file.h"
@@ -38,50 +37,38 @@ Error no_frame(const std::string& path) {
 
 class FolderWriter final : public FrameWriter {
  public:
-  explicit FolderWriter(fs::path folder) : folder_(std::move(folder)) {}
-
-  // Pictures without their list are no result.
-  ~FolderWriter() override {
-    std::error_code ignored;
-    for (uint64_t i = 0; !finished_ && i < index_; ++i) fs::remove(picture_path(i), ignored);
-  }
+  explicit FolderWriter(PictureFolder folder) : folder_(std::move(folder)) {}
 
   Result<void> write(const Frame& frame, const cv::Mat& picture) override {
     list_ += list_line(index_, frame);
-    return write_picture(picture_path(index_++), picture);
+    return folder_.write(kFrame, index_++, picture);
   }
 
-  Result<void> finish() override {
-    const auto written = write_file((folder_ / kPictureList).string(), list_);
-    finished_ = written.ok();
-    return written;
-  }
+  Result<void> finish() override { return folder_.finish(list_); }
 
  private:
-  std::string picture_path(uint64_t index) const {
-    return (folder_ / numbered_picture(kFrame, index)).string();
-  }
-
-  const fs::path folder_;
+  PictureFolder folder_;
   uint64_t index_ = 0;
-  bool finished_ = false;
   std::string list_{kListHeader};
 };
 
 class ImageWriter final : public FrameWriter {
  public:
-  explicit ImageWriter(std::string path) : path_(std::move(path)) {}
+  ImageWriter(std::string path, const OutputRule& rule) : path_(std::move(path)), rule_(rule) {}
 
-  Result<void> write(const Frame&, const cv::Mat& picture) override { return write_picture(path_, picture); }
+  Result<void> write(const Frame&, const cv::Mat& picture) override {
+    return write_picture(path_, picture, rule_);
+  }
   Result<void> finish() override { return {}; }
 
  private:
   const std::string path_;
+  const OutputRule rule_;
 };
 
 class VideoFileWriter final : public FrameWriter {
  public:
-  VideoFileWriter(const std::string& path, double fps) : path_(path), file_(path), fps_(fps) {
+  VideoFileWriter(OutputFile file, double fps) : path_(file.path()), file_(std::move(file)), fps_(fps) {
     silence_video_messages();
   }
 
@@ -110,7 +97,7 @@ class VideoFileWriter final : public FrameWriter {
       return Error{ErrorCode::io, text("cannot write ", path_, ": ", found, " of ", frames_,
                                        " frames can be read back; check the space on its disk")};
     }
-    return file_.put_in_place();
+    return file_.publish();
   }
 
  private:
@@ -122,7 +109,7 @@ class VideoFileWriter final : public FrameWriter {
   }
 
   const std::string path_;
-  AtomicFile file_;
+  OutputFile file_;
   const double fps_;
   cv::VideoWriter video_;
   uint64_t frames_ = 0;
@@ -136,15 +123,16 @@ std::span<const T> pixels_of(const cv::Mat& continuous) {
 
 class NpyWriter final : public FrameWriter {
  public:
-  explicit NpyWriter(const std::string& path) : path_(path) {}
+  NpyWriter(const std::string& path, const OutputRule& rule) : path_(path), rule_(rule) {}
 
   Result<void> write(const Frame& frame, const cv::Mat& picture) override {
     const bool floats = picture.type() == CV_32FC1;
     if (!file_) {
-      auto file = NpyFile::create(path_, floats ? "<f4" : "|u1",
-                                  {static_cast<size_t>(picture.rows), static_cast<size_t>(picture.cols)});
+      auto file =
+          NpyFile::create(path_, floats ? "<f4" : "|u1",
+                          {static_cast<size_t>(picture.rows), static_cast<size_t>(picture.cols)}, rule_);
       if (!file) return file.error();
-      file_ = *std::move(file);
+      file_.emplace(*std::move(file));
     }
     list_ += list_line(frames_++, frame);
     const cv::Mat whole = picture.isContinuous() ? picture : picture.clone();
@@ -154,11 +142,12 @@ class NpyWriter final : public FrameWriter {
   Result<void> finish() override {
     if (!file_) return no_frame(path_);
     if (auto r = file_->finish(); !r) return r;
-    return write_file(fs::path(path_).replace_extension(".csv").string(), list_);
+    return write_file(companions_of(path_, OutputKind::npy).front(), list_, rule_);
   }
 
  private:
   const std::string path_;
+  const OutputRule rule_;
   std::optional<NpyFile> file_;
   uint64_t frames_ = 0;
   std::string list_{kListHeader};
@@ -166,13 +155,14 @@ class NpyWriter final : public FrameWriter {
 
 class Hdf5Writer final : public FrameWriter {
  public:
-  explicit Hdf5Writer(const std::string& path) : path_(path) {}
+  Hdf5Writer(const std::string& path, const OutputRule& rule) : path_(path), rule_(rule) {}
 
   Result<void> write(const Frame& frame, const cv::Mat& picture) override {
     const bool floats = picture.type() == CV_32FC1;
     if (!file_) {
-      auto file = create_hdf5_arrays(path_, kHdf5Frames, floats ? Hdf5Element::f32 : Hdf5Element::u8,
-                                     {static_cast<size_t>(picture.rows), static_cast<size_t>(picture.cols)});
+      auto file =
+          create_hdf5_arrays(path_, kHdf5Frames, floats ? Hdf5Element::f32 : Hdf5Element::u8,
+                             {static_cast<size_t>(picture.rows), static_cast<size_t>(picture.cols)}, rule_);
       if (!file) return file.error();
       file_ = *std::move(file);
     }
@@ -185,16 +175,9 @@ class Hdf5Writer final : public FrameWriter {
 
  private:
   const std::string path_;
+  const OutputRule rule_;
   std::unique_ptr<Hdf5ArrayWriter> file_;
 };
-
-// An early answer, before a long recording is worked through.
-Result<void> check_folder_of(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
-  std::error_code ignored;
-  if (folder.empty() || fs::is_directory(folder, ignored)) return {};
-  return Error{ErrorCode::io, text("the folder of ", path, " does not exist; create it first")};
-}
 
 }  // namespace
 
@@ -223,17 +206,40 @@ Result<OutputKind> output_kind(const std::string& path) {
            "for an array of frames, or end the name in / for a folder of frames")};
 }
 
-Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
-                                                       double video_fps) {
+std::vector<std::string> companions_of(const std::string& path, OutputKind kind) {
+  if (kind != OutputKind::npy) return {};
+  return {fs::path(path).replace_extension(".csv").string()};
+}
+
+Result<void> check_outputs(const std::string& path, OutputKind kind, const std::vector<std::string>& more,
+                           const OutputRule& rule) {
+  std::vector<std::string> files = companions_of(path, kind);
+  files.insert(files.end(), more.begin(), more.end());
   if (kind == OutputKind::folder) {
-    if (auto r = make_picture_folder(path, {kFrame}); !r) return r.error();
-    return std::unique_ptr<FrameWriter>(std::make_unique<FolderWriter>(path));
+    if (auto r = PictureFolder::check(path, {kFrame}, rule); !r) return r;
+  } else {
+    files.insert(files.begin(), path);
   }
-  if (auto r = check_folder_of(path); !r) return r.error();
-  if (kind == OutputKind::npy) return std::unique_ptr<FrameWriter>(std::make_unique<NpyWriter>(path));
-  if (kind == OutputKind::hdf5) return std::unique_ptr<FrameWriter>(std::make_unique<Hdf5Writer>(path));
-  if (kind == OutputKind::image) return std::unique_ptr<FrameWriter>(std::make_unique<ImageWriter>(path));
-  return std::unique_ptr<FrameWriter>(std::make_unique<VideoFileWriter>(path, video_fps));
+  return rule.check(files);
+}
+
+Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
+                                                       double video_fps, const OutputRule& rule) {
+  using Made = std::unique_ptr<FrameWriter>;
+  if (kind == OutputKind::folder) {
+    auto folder = PictureFolder::create(path, {kFrame}, rule);
+    if (!folder) return folder.error();
+    return Made(std::make_unique<FolderWriter>(*std::move(folder)));
+  }
+  if (kind == OutputKind::video) {
+    auto file = OutputFile::create(path, rule);
+    if (!file) return file.error();
+    return Made(std::make_unique<VideoFileWriter>(*std::move(file), video_fps));
+  }
+  if (auto r = check_outputs(path, kind, {}, rule); !r) return r.error();  // early, before the work
+  if (kind == OutputKind::npy) return Made(std::make_unique<NpyWriter>(path, rule));
+  if (kind == OutputKind::hdf5) return Made(std::make_unique<Hdf5Writer>(path, rule));
+  return Made(std::make_unique<ImageWriter>(path, rule));
 }
 
 }  // namespace scarf::tools

@@ -5,7 +5,9 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
+#include "io/output_files.h"
 #include "scarf/result.h"
 #include "tools/instants.h"
 
@@ -38,10 +40,16 @@ class FrameWriter {
   virtual Result<void> finish() = 0;
 };
 
-/// `video_fps` is the speed at which a video is shown. A folder is made if it is not there, and frames of an
-/// earlier rendering in it are removed. Beside NAME.npy (n, height, width) comes NAME.csv, the list that a
-/// folder has inside it; HDF5: see hdf5_writer.h. Errors: io.
+/// `video_fps` is the speed at which a video is shown. A folder is made if it is not there, see
+/// PictureFolder. Beside NAME.npy (n, height, width) comes NAME.csv, the list that a
+/// folder has inside it; HDF5: see hdf5_writer.h. Errors: as check_outputs; io.
 Result<std::unique_ptr<FrameWriter>> make_frame_writer(const std::string& path, OutputKind kind,
-                                                       double video_fps);
+                                                       double video_fps, const OutputRule& rule);
+
+/// The files that such a writer makes besides what it is named, and whether all of them may be written.
+std::vector<std::string> companions_of(const std::string& path, OutputKind kind);
+/// `more`: other files of the same command. Errors: as OutputRule::check and PictureFolder::check.
+Result<void> check_outputs(const std::string& path, OutputKind kind, const std::vector<std::string>& more,
+                           const OutputRule& rule);
 
 }  // namespace scarf::tools

@@ -5,7 +5,7 @@
 
 #include "core/text.h"
 #include "tools/commands.h"
-#include "tools/files.h"
+#include "tools/file_options.h"
 #include "tools/pictures.h"
 #include "tools/read_options.h"
 
@@ -21,7 +21,8 @@ struct FramesOptions {
   bool allow_empty = false;
 };
 
-Result<int> frames(const FramesOptions& options) {
+Result<int> frames(const FramesOptions& options, const OutputRule& rule) {
+  if (auto r = PictureFolder::check(options.output, {kName}, rule); !r) return r.error();
   const auto source = open_frames(options.file, options.read);
   if (!source) return source.error();
   // Nothing is made for a recording without frames.
@@ -31,22 +32,21 @@ Result<int> frames(const FramesOptions& options) {
     return Error{ErrorCode::bad_input,
                  text(options.file, ": it holds no frame; if that is right, give --allow-empty")};
   }
-  if (auto r = make_picture_folder(options.output, {kName}); !r) return r.error();
+  auto folder = PictureFolder::create(options.output, {kName}, rule);
+  if (!folder) return folder.error();
   uint64_t index = 0;
   std::string list = "index,t_us,exposure_begin_us,exposure_end_us\n";
-  // A recording may break off: the list names the pictures before that, too.
-  const auto write_list = [&] { return write_file(text(options.output, "/", kPictureList), list); };
   for (; *frame; ++index) {
     const GreyFrame& f = **frame;
-    const std::string picture = text(options.output, "/", numbered_picture(kName, index));
-    if (auto r = write_picture(picture, as_picture(f.image)); !r) return r.error();
+    if (auto r = folder->write(kName, index, as_picture(f.image)); !r) return r.error();
     list += text(index, ",", f.t, ",", f.exposure_begin, ",", f.exposure_end, "\n");
     frame = (*source)->read();
     if (frame) continue;
-    if (auto r = write_list(); !r) return r.error();
+    // A recording may break off: the pictures before that are kept, and the list names them.
+    if (auto r = folder->finish(list); !r) return r.error();
     return frame.error();
   }
-  if (auto r = write_list(); !r) return r.error();
+  if (auto r = folder->finish(list); !r) return r.error();
   const PassedFrames& passed = (*source)->passed_over();
   if (passed.count == 0) return 0;
   const std::string what = text(passed.count, " frames or broken places were passed over; the first at byte ",
@@ -62,13 +62,17 @@ void add_frames(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand(
       "frames", "The greyscale frames of a recording as frame_NNNNNN.png, and frames.csv with their times");
   auto options = std::make_shared<FramesOptions>();
-  app->add_option("file", options->file, "Recording, or its folder")->required();
-  app->add_option("-o,--output", options->output,
-                  "Folder for PNG frames and their list frames.csv; frames of an earlier run are removed")
+  add_input_option(*app, "file", options->file, "Recording, or its folder")->required();
+  add_output_option(
+      *app, "-o,--output", options->output,
+      "Folder for PNG frames and their list frames.csv; with --overwrite those of an earlier run "
+      "are replaced")
       ->required();
   add_read_options(*app, options->read);
   add_allow_empty(*app, options->allow_empty);
-  app->callback([&command, options] { command.run = [options] { return frames(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return frames(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

@@ -5,25 +5,24 @@
 #include <utility>
 
 #include "core/text.h"
-#include "io/atomic_file.h"
 #include "io/hdf5/event_columns.h"
 #include "io/hdf5/growing_dataset.h"
+#include "io/output_files.h"
 
 namespace scarf::tools {
 namespace {
 
 using hdf5::GrowingDataset;
-using hdf5::OutputFile;
 
 // Numbers of frames in a chunk of the datasets that have one number per frame.
 constexpr size_t kFramesPerChunk = 4096;
 
 // What both kinds of file have: the file itself, and times and counts of its frames.
 struct FrameFile {
-  FrameFile(const std::string& name) : path(name), place(name) {}
+  explicit FrameFile(OutputFile to) : path(to.path()), output(std::move(to)) {}
 
   Result<void> create(const std::string& counts_name) {
-    auto made = hdf5::OutputFile::create(place.name(), path);
+    auto made = hdf5::WrittenFile::create(output.name(), path);
     if (!made) return made.error();
     file = *std::move(made);
     auto t = GrowingDataset::create<int64_t>(file, "times", {}, kFramesPerChunk);
@@ -48,20 +47,20 @@ struct FrameFile {
     if (auto r = times.close(); !r) return r.error();
     if (auto r = counts.close(); !r) return r.error();
     if (auto r = file.close(); !r) return r.error();
-    return place.put_in_place();
+    return output.publish();
   }
 
   const std::string path;
-  AtomicFile place;
-  OutputFile file;
+  OutputFile output;
+  hdf5::WrittenFile file;
   GrowingDataset times;
   GrowingDataset counts;
 };
 
 class ArrayWriter final : public Hdf5ArrayWriter {
  public:
-  ArrayWriter(const std::string& path, Hdf5Element element, std::vector<size_t> shape)
-      : out_(path), element_(element), shape_(std::move(shape)) {}
+  ArrayWriter(OutputFile output, Hdf5Element element, std::vector<size_t> shape)
+      : out_(std::move(output)), element_(element), shape_(std::move(shape)) {}
 
   Result<void> create(std::string_view dataset) {
     if (auto r = out_.create("events"); !r) return r;
@@ -104,7 +103,7 @@ class ArrayWriter final : public Hdf5ArrayWriter {
 
 class EventsWriter final : public EventListWriter {
  public:
-  explicit EventsWriter(const std::string& path) : out_(path) {}
+  explicit EventsWriter(OutputFile output) : out_(std::move(output)) {}
 
   Result<void> create(SensorSize sensor) {
     if (auto r = out_.create("stream_events"); !r) return r;
@@ -145,14 +144,20 @@ class EventsWriter final : public EventListWriter {
 }  // namespace
 
 Result<std::unique_ptr<Hdf5ArrayWriter>> create_hdf5_arrays(const std::string& path, std::string_view dataset,
-                                                            Hdf5Element element, std::vector<size_t> shape) {
-  auto writer = std::make_unique<ArrayWriter>(path, element, std::move(shape));
+                                                            Hdf5Element element, std::vector<size_t> shape,
+                                                            const OutputRule& rule) {
+  auto output = OutputFile::create(path, rule);
+  if (!output) return output.error();
+  auto writer = std::make_unique<ArrayWriter>(*std::move(output), element, std::move(shape));
   if (auto r = writer->create(dataset); !r) return r.error();
   return std::unique_ptr<Hdf5ArrayWriter>(std::move(writer));
 }
 
-Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string& path, SensorSize sensor) {
-  auto writer = std::make_unique<EventsWriter>(path);
+Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string& path, SensorSize sensor,
+                                                            const OutputRule& rule) {
+  auto output = OutputFile::create(path, rule);
+  if (!output) return output.error();
+  auto writer = std::make_unique<EventsWriter>(*std::move(output));
   if (auto r = writer->create(sensor); !r) return r.error();
   return std::unique_ptr<EventListWriter>(std::move(writer));
 }

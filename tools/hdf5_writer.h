@@ -38,14 +38,17 @@ class Hdf5ArrayWriter {
 enum class Hdf5Element { u8, f32 };
 
 /// `dataset`: kHdf5Frames or kHdf5Tensors. `shape`: of one array, {height, width} or {channels, height,
-/// width}; every number is at least 1. Errors: io; illegal_parameter if this build has no HDF5.
+/// width}; every number is at least 1. Errors: as OutputFile::create; illegal_parameter if this build has no
+/// HDF5.
 Result<std::unique_ptr<Hdf5ArrayWriter>> create_hdf5_arrays(const std::string& path, std::string_view dataset,
-                                                            Hdf5Element element, std::vector<size_t> shape);
+                                                            Hdf5Element element, std::vector<size_t> shape,
+                                                            const OutputRule& rule);
 
 /// The sparse events of each frame, one frame after the other: `events/x`, `events/y` (uint16), `events/p`
 /// (uint8), `events/t` (int64, microseconds), and `events/width`, `events/height`; frame k has the rows
 /// `frame_offsets[k]` up to `frame_offsets[k + 1]` (n + 1, uint64). `times` as above, `stream_events` is
-/// Frame::events. Errors: io; illegal_parameter if this build has no HDF5.
-Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string& path, SensorSize sensor);
+/// Frame::events. Errors: as OutputFile::create; illegal_parameter if this build has no HDF5.
+Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string& path, SensorSize sensor,
+                                                            const OutputRule& rule);
 
 }  // namespace scarf::tools

@@ -13,11 +13,12 @@ Error missing() {
 }  // namespace
 
 Result<std::unique_ptr<Hdf5ArrayWriter>> create_hdf5_arrays(const std::string&, std::string_view, Hdf5Element,
-                                                            std::vector<size_t>) {
+                                                            std::vector<size_t>, const OutputRule&) {
   return missing();
 }
 
-Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string&, SensorSize) {
+Result<std::unique_ptr<EventListWriter>> create_hdf5_events(const std::string&, SensorSize,
+                                                            const OutputRule&) {
   return missing();
 }
 

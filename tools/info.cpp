@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "scarf/digest.h"
 #include "tools/commands.h"
+#include "tools/file_options.h"
 #include "tools/play.h"
 #include "tools/progress.h"
 #include "tools/read_options.h"
@@ -265,10 +266,10 @@ Result<int> info(const InfoOptions& options) {
 void add_info(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("info", "Format, sensor, events and oddities of recordings");
   auto options = std::make_shared<InfoOptions>();
-  app->add_option(
-         "files", options->files,
-         "Recordings, - for standard input, and folders of recordings; of those in folders, what is no "
-         "recording is left out")
+  add_input_option(
+      *app, "files", options->files,
+      "Recordings, - for standard input, and folders of recordings; of those in folders, what is no "
+      "recording is left out")
       ->required();
   add_read_options(*app, options->read);
   app->add_flag("--digest", options->digest, "Also the SHA-256 of the decoded events");

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "io/format.h"
 #include "tools/progress.h"
 
 namespace scarf::tools {
@@ -74,10 +75,10 @@ Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const Pl
 }
 
 Result<void> write_prefix(const OpenAgain& open_again, SensorSize sensor, uint64_t events,
-                          const std::string& path) {
+                          const std::string& path, const OutputRule& rule) {
   const auto source = open_again();
   if (!source) return source.error();
-  const auto sink = create_events(path, "text", sensor);
+  const auto sink = create_recording(path, "text", sensor, rule);
   if (!sink) return sink.error();
   const auto write = [&](std::span<const Event> batch) { return (*sink)->write(batch); };
   const auto played = play(**source, {.max_events = events}, {.events = write});

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "io/output_files.h"
 #include "scarf/io.h"
 #include "scarf/scarf.h"
 #include "tools/compare_states.h"
@@ -36,8 +37,8 @@ Lockstep shortest_failure(Lockstep failed, const OpenAgain& open_again, const Pl
                           const std::function<std::unique_ptr<Tolerance>()>& make_tolerance = {});
 
 /// Writes the first `events` events of a recording as text, so that a failure can be told and tried again.
-/// Errors: whatever the recording returned; io.
+/// Errors: whatever the recording returned; as OutputFile::create.
 Result<void> write_prefix(const OpenAgain& open_again, SensorSize sensor, uint64_t events,
-                          const std::string& path);
+                          const std::string& path, const OutputRule& rule);
 
 }  // namespace scarf::tools

@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 
+#include "io/temporaries.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
+#include "tools/file_options.h"
 
 namespace {
 
@@ -30,7 +32,9 @@ int finished(int exit_code) {
   return std::cout ? exit_code : report("cannot write to standard output", kFailed);
 }
 
-int run(const scarf::tools::Command& command) {
+int run(const scarf::tools::Command& command, const CLI::App& app) {
+  if (const auto r = scarf::tools::check_standard_streams(app); !r)
+    return report(r.error().message, kBadUsage);
   const auto exit_code = command.run();
   if (!exit_code) {
     const bool usage = exit_code.error().code == scarf::ErrorCode::illegal_parameter;
@@ -57,34 +61,19 @@ std::string help_command(const CLI::App& program) {
 
 int main(int argc, char** argv) {
   occupy_closed_streams();
+  scarf::remove_temporaries_on_signals();
   CLI::App program("Event-camera streams to velocity-invariant pictures", "scarf");
   program.set_version_flag("--version", "scarf " SCARF_VERSION);
   program.require_subcommand(0, 1);
   scarf::tools::Command command;
-  scarf::tools::add_formats(program, command);
-  scarf::tools::add_info(program, command);
-  scarf::tools::add_convert(program, command);
-  scarf::tools::add_cut(program, command);
-  scarf::tools::add_representations(program, command);
-  scarf::tools::add_digest(program, command);
-  scarf::tools::add_compare(program, command);
-  scarf::tools::add_triggers(program, command);
-  scarf::tools::add_verify(program, command);
-  scarf::tools::add_devices(program, command);
-  scarf::tools::add_bench(program, command);
-#ifdef SCARF_PICTURES
-  scarf::tools::add_frames(program, command);
-  scarf::tools::add_render(program, command);
-  scarf::tools::add_reprocess(program, command);
-  scarf::tools::add_simulate(program, command);
-#endif
+  scarf::tools::add_commands(program, command);
 
   try {  // CLI11 and OpenCV throw
     const auto checked =
         scarf::tools::check_arguments(std::span(argv, static_cast<size_t>(argc)).subspan(argc > 0 ? 1 : 0));
     if (!checked) return report(checked.error().message, kBadUsage);
     program.parse(argc, argv);
-    if (command.run) return run(command);
+    if (command.run) return run(command, *program.get_subcommands().front());
     std::cout << program.help();
     return finished(kBadUsage);
   } catch (const CLI::ParseError& e) {

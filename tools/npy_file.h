@@ -4,9 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/byte_writer.h"
@@ -17,8 +17,9 @@ namespace scarf::tools {
 class NpyFile {
  public:
   /// `type`: of an element, as NumPy writes it, such as "<f4" or "|u1". `row`: shape of one row, empty for
-  /// numbers. Errors: io.
-  static Result<NpyFile> create(const std::string& path, std::string type, std::vector<size_t> row);
+  /// numbers. Errors: as OutputFile::create.
+  static Result<NpyFile> create(const std::string& path, std::string type, std::vector<size_t> row,
+                                const OutputRule& rule);
 
   /// Whole rows, row-major, little-endian. Errors: io.
   template <class T>
@@ -30,13 +31,14 @@ class NpyFile {
   Result<void> finish();
 
  private:
-  NpyFile(ByteWriter file, std::string type, std::vector<size_t> row);
-  Result<void> append_bytes(std::span<const char> bytes);
+  NpyFile(ByteWriter file, std::string type, std::vector<size_t> row)
+      : file_(std::move(file)), type_(std::move(type)), row_(std::move(row)) {}
+  Result<void> append_bytes(std::string_view bytes);
   std::string header(uint64_t rows) const;
 
+  ByteWriter file_;
   std::string type_;
   std::vector<size_t> row_;
-  std::unique_ptr<ByteWriter> file_;
   uint64_t bytes_ = 0;  // of the rows
 };
 

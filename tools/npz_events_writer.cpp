@@ -3,18 +3,16 @@
 #include <zip.h>
 
 #include <array>
-#include <filesystem>
+#include <ctime>
 #include <utility>
 #include <vector>
 
 #include "core/text.h"
-#include "io/atomic_file.h"
+#include "io/output_files.h"
 #include "tools/npy_file.h"
 
 namespace scarf::tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Column {
   const char* name;
@@ -29,16 +27,25 @@ constexpr Column kColumnsOfFile[kColumns] = {{"x", "<u2"},
                                              {"times", "<i8"},
                                              {"stream_events", "<u8"}};
 
-// An archive's entries are written one after the other, but all arrays grow at once: they grow in files
-// beside the archive, which are gone afterwards.
+// The earliest time that an archive can hold, in any time zone: the same events make the same file.
+time_t begin_of_zip_time() {
+  std::tm begin{};
+  begin.tm_year = 80;
+  begin.tm_mday = 1;
+  begin.tm_isdst = -1;
+  return std::mktime(&begin);
+}
+
+// An archive's entries are written one after the other, but all arrays grow at once: they grow in files of
+// a folder beside the archive, which is gone afterwards.
 class NpzWriter final : public EventListWriter {
  public:
-  explicit NpzWriter(const std::string& path) : path_(path), place_(path) {}
-  ~NpzWriter() override { remove_parts(); }
+  NpzWriter(OutputFile output, ScratchFolder scratch)
+      : output_(std::move(output)), scratch_(std::move(scratch)) {}
 
   Result<void> create() {
     for (const Column& column : kColumnsOfFile) {
-      auto part = NpyFile::create(part_path(column), column.type, {});
+      auto part = NpyFile::create(part_path(column), column.type, {}, OutputRule());
       if (!part) return part.error();
       parts_.push_back(*std::move(part));
     }
@@ -61,7 +68,8 @@ class NpzWriter final : public EventListWriter {
       if (auto r = part.finish(); !r) return r;
     }
     int code = 0;
-    zip_t* const archive = zip_open(place_.name().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+    const std::string made = scratch_.file("archive.npz");
+    zip_t* const archive = zip_open(made.c_str(), ZIP_CREATE | ZIP_EXCL, &code);
     if (archive == nullptr) {
       zip_error_t error;
       zip_error_init_with_code(&error, code);
@@ -72,25 +80,23 @@ class NpzWriter final : public EventListWriter {
     bool good = true;
     for (const Column& column : kColumnsOfFile) {
       zip_source_t* const source = zip_source_file(archive, part_path(column).c_str(), 0, -1);
-      good = good && source != nullptr &&
-             zip_file_add(archive, text(column.name, ".npy").c_str(), source, ZIP_FL_OVERWRITE) >= 0;
+      const int64_t index = source == nullptr ? -1
+                                              : zip_file_add(archive, text(column.name, ".npy").c_str(),
+                                                             source, ZIP_FL_OVERWRITE);
+      good = good && index >= 0 &&
+             zip_file_set_mtime(archive, static_cast<uint64_t>(index), begin_of_zip_time(), 0) == 0;
     }
     if (!good || zip_close(archive) != 0) {
       const Error told = failed(zip_get_error(archive));
       zip_discard(archive);
       return told;
     }
-    remove_parts();
-    return place_.put_in_place();
+    if (auto r = output_.take(made); !r) return r;
+    return output_.publish();
   }
 
  private:
-  std::string part_path(const Column& column) const { return text(place_.name(), ".", column.name, ".npy"); }
-
-  void remove_parts() const {
-    std::error_code ignored;
-    for (const Column& column : kColumnsOfFile) fs::remove(part_path(column), ignored);
-  }
+  std::string part_path(const Column& column) const { return scratch_.file(text(column.name, ".npy")); }
 
   template <class T>
   Result<void> append(ColumnIndex column, std::span<const Event> events, T Event::*field) {
@@ -105,19 +111,23 @@ class NpzWriter final : public EventListWriter {
   }
 
   Error failed(zip_error_t* why) const {
-    return {ErrorCode::io, text("cannot write ", path_, ": ", zip_error_strerror(why))};
+    return {ErrorCode::io, text("cannot write ", output_.path(), ": ", zip_error_strerror(why))};
   }
 
-  const std::string path_;
-  AtomicFile place_;
+  OutputFile output_;
+  ScratchFolder scratch_;
   std::vector<NpyFile> parts_;
   uint64_t count_ = 0;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string& path) {
-  auto writer = std::make_unique<NpzWriter>(path);
+Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string& path, const OutputRule& rule) {
+  auto output = OutputFile::create(path, rule);
+  if (!output) return output.error();
+  auto scratch = ScratchFolder::create(path);
+  if (!scratch) return scratch.error();
+  auto writer = std::make_unique<NpzWriter>(*std::move(output), *std::move(scratch));
   if (auto r = writer->create(); !r) return r.error();
   return std::unique_ptr<EventListWriter>(std::move(writer));
 }

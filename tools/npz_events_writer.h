@@ -8,7 +8,7 @@
 
 namespace scarf::tools {
 
-/// Errors: io; illegal_parameter if this build has no libzip.
-Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string& path);
+/// Errors: as OutputFile::create; illegal_parameter if this build has no libzip.
+Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string& path, const OutputRule& rule);
 
 }  // namespace scarf::tools

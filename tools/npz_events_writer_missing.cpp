@@ -3,7 +3,7 @@
 
 namespace scarf::tools {
 
-Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string&) {
+Result<std::unique_ptr<EventListWriter>> create_npz_events(const std::string&, const OutputRule&) {
   return Error{ErrorCode::illegal_parameter,
                "this build of scarf writes no .npz; install libzip-dev and build again, or choose .h5"};
 }

@@ -54,6 +54,7 @@ void add_parameter_options(CLI::App& app, StreamOptions& o) {
     app.add_option_function<std::string>(
            "--" + name, [&o, key = name](const std::string& word) { o.parameters[key] = word; },
            text(s.description, " (", s.owners, ")"))
+        ->type_name(kWordType)
         ->group("Other representations");
   }
 }
@@ -72,7 +73,8 @@ void add_representation_options(CLI::App& app, StreamOptions& o, const std::vect
   only_scarf(add_parsed_option(app, "--preset", o.preset, parse_preset,
                                "paper (default), light, event_driven, event_driven_flex or explicit"),
              grid);
-  only_scarf(app.add_option("--cell", o.cell, "Pixels of a cell, default 9; WxH with preset explicit"), grid);
+  only_scarf(add_word_option(app, "--cell", o.cell, "Pixels of a cell, default 9; WxH with preset explicit"),
+             grid);
   only_scarf(add_parsed_option(app, "--ratio", o.ratio, parse_number,
                                "Receptive field ratio, default 1.2; paper and event_driven_flex only"),
              grid);
@@ -100,6 +102,7 @@ void add_representation_options(CLI::App& app, StreamOptions& o, const std::vect
            for (const std::string& word : words) o.filters.push_back(*parse_filter(word));
          },
          "A noise filter in front, support:range=1,period=100ms or refractory:period=1ms; may be repeated")
+      ->type_name(kWordType)
       ->check([](const std::string& word) {
         const auto filter = parse_filter(word);
         return filter ? std::string() : filter.error().message;
@@ -108,7 +111,7 @@ void add_representation_options(CLI::App& app, StreamOptions& o, const std::vect
 }
 
 void add_stream_options(CLI::App& app, StreamOptions& o, const std::vector<std::string>& more) {
-  app.add_option("file", o.file, "Recording; - is standard input")->required();
+  add_input_option(app, "file", o.file, "Recording; - is standard input")->required();
   add_read_options(app, o.read);
   add_allow_empty(app, o.allow_empty);
   add_representation_options(app, o, more);
@@ -121,7 +124,7 @@ void add_work_options(CLI::App& app, StreamOptions& o) {
                     "Events per batch: N, random or random:SEED; never changes a result")
       ->group(work);
   CLI::Option* device =
-      app.add_option("--device", o.device.device, "Index, part of the name, UUID or type of the device")
+      add_word_option(app, "--device", o.device.device, "Index, part of the name, UUID or type of the device")
           ->group(work);
   CLI::Option* require_gpu =
       app.add_flag("--require-gpu", o.device.require_gpu, "Refuse Vulkan devices that are CPUs")->group(work);

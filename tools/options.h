@@ -13,6 +13,7 @@
 #include "scarf/gpu.h"
 #include "scarf/io.h"
 #include "tools/batch_sizes.h"
+#include "tools/file_options.h"
 #include "tools/parse.h"
 
 namespace scarf::tools {
@@ -48,6 +49,7 @@ CLI::Option* add_parsed_option(CLI::App& app, const std::string& name, Target& t
   return app
       .add_option_function<std::string>(
           name, [&target, parse](const std::string& word) { target = *parse(word); }, help)
+      ->type_name(kWordType)
       ->check([parse](const std::string& word) {
         const auto value = parse(word);
         return value ? std::string() : value.error().message;

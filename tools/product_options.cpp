@@ -1,6 +1,7 @@
 #include "tools/product_options.h"
 
 #include "scarf/encoding.h"
+#include "tools/file_options.h"
 
 namespace scarf::tools {
 namespace {
@@ -20,11 +21,11 @@ void add_product_options(CLI::App& app, ProductOptions& options, const std::stri
          "u8 or float, default u8; float is offered for .npy and .h5")
       ->check(CLI::IsMember({"u8", "float"}))
       ->group(what);
-  app.add_option("--encoding", options.encoding,
-                 "A tensor of the active events instead of a picture, into an .h5: one of " +
-                     encoding_names() + ", such as voxel_grid:bins=5")
+  add_word_option(app, "--encoding", options.encoding,
+                  "A tensor of the active events instead of a picture, into an .h5: one of " +
+                      encoding_names() + ", such as voxel_grid:bins=5")
       ->group(what);
-  app.add_option("--sparse", options.sparse, sparse_help)->group(what);
+  add_output_option(app, "--sparse", options.sparse, sparse_help)->group(what);
 }
 
 }  // namespace scarf::tools

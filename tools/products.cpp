@@ -73,11 +73,12 @@ std::unique_ptr<FrameProduct> event_product(Representation& representation,
 
 Result<std::unique_ptr<FrameProduct>> tensor_product(Representation& representation,
                                                      const EncodingParameters& encoding,
-                                                     const std::string& path) {
+                                                     const std::string& path, const OutputRule& rule) {
   const EncodingShape shape = shape_of(encoding, representation.sensor());
   auto created = create_hdf5_arrays(path, kHdf5Tensors, Hdf5Element::f32,
                                     {static_cast<size_t>(shape.planes), static_cast<size_t>(shape.height),
-                                     static_cast<size_t>(shape.width)});
+                                     static_cast<size_t>(shape.width)},
+                                    rule);
   if (!created) return created.error();
   const std::shared_ptr<Hdf5ArrayWriter> writer = *std::move(created);
 

@@ -33,6 +33,6 @@ std::unique_ptr<FrameProduct> event_product(Representation& representation,
 /// there, of others on the CPU. Errors: illegal_parameter as checked_encoding; io.
 Result<std::unique_ptr<FrameProduct>> tensor_product(Representation& representation,
                                                      const EncodingParameters& encoding,
-                                                     const std::string& path);
+                                                     const std::string& path, const OutputRule& rule);
 
 }  // namespace scarf::tools

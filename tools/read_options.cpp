@@ -23,9 +23,9 @@ void add_read_options(CLI::App& app, ReadOptions& o) {
   add_parsed_option(app, "--geometry", o.sensor, parse_sensor,
                     "Sensor size WxH, where the recording does not say")
       ->group(group);
-  app.add_option("--format", o.format, "Format, where the content does not tell; see scarf formats")
+  add_word_option(app, "--format", o.format, "Format, where the content does not tell; see scarf formats")
       ->group(group);
-  app.add_option("--stream", o.stream, "Which camera, of a recording with several")->group(group);
+  add_word_option(app, "--stream", o.stream, "Which camera, of a recording with several")->group(group);
   add_choice<TimePolicy>(app, "--time-policy", o.time_policy,
                          {{"keep", TimePolicy::keep},
                           {"clamp", TimePolicy::clamp},
@@ -41,9 +41,9 @@ void add_read_options(CLI::App& app, ReadOptions& o) {
                          {"first-event", TimeShift::first_event}},
                         "What is subtracted from all times: none, first-high, first-event");
   app.add_flag("--strict", o.strict, "Damage, unknown words and truncated bytes are errors")->group(group);
-  app.add_option("--columns", o.columns,
-                 "Order of the columns of text and plain arrays, such as txyp; or names of columns, such as "
-                 "t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol (HDF5, NumPy)")
+  add_word_option(app, "--columns", o.columns,
+                  "Order of the columns of text and plain arrays, such as txyp; or names of columns, such as "
+                  "t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol (HDF5, NumPy)")
       ->group(group);
   app.add_option("--time-unit", o.time_unit, "Unit of times where the format leaves it open")
       ->check(CLI::IsMember({"s", "ms", "us", "ns"}))

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "core/text.h"
+#include "io/format.h"
 #include "scarf/digest.h"
 #include "scarf/frames.h"
+#include "tools/file_options.h"
 #include "tools/output_format.h"
 #include "tools/play.h"
 #include "tools/progress.h"
@@ -104,7 +106,7 @@ Result<void> check_copy(const CopyTarget& target, SensorSize sensor, const Copie
 }  // namespace
 
 Result<Copied> copy_recording(const Original& original, const Choose& choose, SensorSize sensor,
-                              const CopyTarget& target) {
+                              const CopyTarget& target, const OutputRule& rule) {
   EventSource& source = original.source;
   const auto format = output_format(target.path, target.format, source.format());
   if (!format) return format.error();
@@ -113,7 +115,7 @@ Result<Copied> copy_recording(const Original& original, const Choose& choose, Se
         ErrorCode::illegal_parameter,
         "--check reads the copy again, which standard output cannot do; name a file, or leave it out"};
   }
-  const auto sink = create_events(target.path, *format, sensor);
+  const auto sink = create_recording(target.path, *format, sensor, rule);
   if (!sink) return sink.error();
 
   Copied copied;
@@ -186,18 +188,18 @@ std::string beside_events(const Copied& copied) {
 }
 
 void add_copy_target(CLI::App& app, CopyTarget& target) {
-  app.add_option("output", target.path,
-                 "Recording to write, in the format of its name (" + output_extensions() +
-                     "; .raw keeps the EVT version of a RAW recording); - is standard output")
+  add_output_option(app, "output", target.path,
+                    "Recording to write, in the format of its name (" + output_extensions() +
+                        "; .raw keeps the EVT version of a RAW recording); - is standard output")
       ->required();
-  app.add_option("--output-format", target.format,
-                 "Format of the output, where its name does not tell; see scarf formats");
+  add_word_option(app, "--output-format", target.format,
+                  "Format of the output, where its name does not tell; see scarf formats");
   app.add_flag("--check", target.check, "Read the output again and compare it with what was written");
   add_allow_empty(app, target.allow_empty);
 }
 
 std::ostream& remarks(const CopyTarget& target) {
-  return target.path == "-" ? std::cerr : std::cout;
+  return target.path == "-" || target.path == "/dev/stdout" ? std::cerr : std::cout;
 }
 
 }  // namespace scarf::tools

@@ -7,6 +7,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "io/output_files.h"
 #include "scarf/io.h"
 #include "tools/trigger_copy.h"
 
@@ -42,7 +43,7 @@ struct Choose {
 /// header of its camera, where the format has room for them. Errors: whatever source and sink return;
 /// bad_input, if there is no event, or if the copy was to be checked and is not what was written.
 Result<Copied> copy_recording(const Original& original, const Choose& choose, SensorSize sensor,
-                              const CopyTarget& target);
+                              const CopyTarget& target, const OutputRule& rule);
 
 /// A line about what was copied beside the events; empty: nothing was.
 std::string beside_events(const Copied& copied);

@@ -95,23 +95,24 @@ Result<Choice> choose(const RenderOptions& options, SensorSize sensor) {
 
 Result<std::vector<std::unique_ptr<FrameProduct>>> make_products(const RenderOptions& options,
                                                                  OutputKind kind,
-                                                                 const std::vector<Shown>& shown) {
+                                                                 const std::vector<Shown>& shown,
+                                                                 const OutputRule& rule) {
   Representation& first = *shown.front().representation;
   std::vector<std::unique_ptr<FrameProduct>> products;
   if (!options.products.encoding.empty()) {
     const auto encoding = parse_encoding(options.products.encoding);
     if (!encoding) return encoding.error();
-    auto tensors = tensor_product(first, *encoding, options.output);
+    auto tensors = tensor_product(first, *encoding, options.output, rule);
     if (!tensors) return tensors.error();
     products.push_back(*std::move(tensors));
   } else {
-    auto writer = make_frame_writer(options.output, kind, options.frames.shown_fps());
+    auto writer = make_frame_writer(options.output, kind, options.frames.shown_fps(), rule);
     if (!writer) return writer.error();
     products.push_back(options.products.floats ? float_product(first, *std::move(writer))
                                                : picture_product(shown, *std::move(writer)));
   }
   if (!options.products.sparse.empty()) {
-    auto writer = make_event_list_writer(options.products.sparse, first.sensor());
+    auto writer = make_event_list_writer(options.products.sparse, first.sensor(), rule);
     if (!writer) return writer.error();
     products.push_back(event_product(first, *std::move(writer)));
   }
@@ -152,28 +153,32 @@ bool can_be_replayed(const RenderOptions& options, OutputKind kind) {
 }
 
 Result<std::unique_ptr<Renderer>> make_replay(const RenderOptions& options, OutputKind kind,
-                                              SensorSize sensor, std::string& implementation) {
+                                              SensorSize sensor, std::string& implementation,
+                                              const OutputRule& rule) {
   const auto grid = scarf_grid(options.stream, sensor);
   if (!grid) return grid.error();
   const auto context = GpuContext::create(options.stream.device);
   if (!context) return context.error();
   implementation = (*context)->device().name;
   return make_replay_renderer(*context, *grid, options.stream.accumulation, [&] {
-    return make_frame_writer(options.output, kind, options.frames.shown_fps());
+    return make_frame_writer(options.output, kind, options.frames.shown_fps(), rule);
   });
 }
 
 Result<std::unique_ptr<Renderer>> make_live(const RenderOptions& options, OutputKind kind,
-                                            const std::vector<Shown>& shown) {
-  auto products = make_products(options, kind, shown);
+                                            const std::vector<Shown>& shown, const OutputRule& rule) {
+  auto products = make_products(options, kind, shown, rule);
   if (!products) return products.error();
   return make_live_renderer(shown, *std::move(products));
 }
 
-Result<int> render(const RenderOptions& options) {
+Result<int> render(const RenderOptions& options, const OutputRule& rule) {
   const auto kind = output_kind(options.output);
   if (!kind) return kind.error();
   if (auto r = check(options, *kind); !r) return r.error();
+  std::vector<std::string> more;
+  if (!options.products.sparse.empty()) more.push_back(options.products.sparse);
+  if (auto r = check_outputs(options.output, *kind, more, rule); !r) return r.error();
   const auto instants = make_instants(options.frames, *kind);
   if (!instants) return instants.error();
   auto recording = open_recording(options.stream);
@@ -181,8 +186,9 @@ Result<int> render(const RenderOptions& options) {
   const bool replayed = can_be_replayed(options, *kind);
   auto choice = replayed ? Result<Choice>(Choice{}) : choose(options, recording->sensor);
   if (!choice) return choice.error();
-  const auto renderer = replayed ? make_replay(options, *kind, recording->sensor, choice->implementation)
-                                 : make_live(options, *kind, choice->shown);
+  const auto renderer = replayed
+                            ? make_replay(options, *kind, recording->sensor, choice->implementation, rule)
+                            : make_live(options, *kind, choice->shown, rule);
   if (!renderer) return renderer.error();
 
   uint64_t frames = 0;
@@ -232,10 +238,10 @@ void add_render(CLI::App& program, Command& command) {
   auto options = std::make_shared<RenderOptions>();
   add_stream_options(*app, options->stream, {kAllRepresentations});
   add_decode_option(*app, options->decode_on_device);
-  app->add_option("-o,--output", options->output,
-                  "A folder of PNG frames with their list frames.csv; a video (.mp4, .avi); an array of "
-                  "frames (.npy with the "
-                  "list NAME.csv beside it, .h5); or one image of the end (.png, .pgm)")
+  add_output_option(
+      *app, "-o,--output", options->output,
+      "A folder of PNG frames with their list frames.csv; a video (.mp4, .avi); an array of "
+      "frames (.npy with the list NAME.csv beside it, .h5); or one image of the end (.png, .pgm)")
       ->required();
   add_product_options(*app, options->products, "File for the sparse events of each frame (.h5, .npz)");
   add_frame_options(*app, options->frames);
@@ -245,7 +251,9 @@ void add_render(CLI::App& program, Command& command) {
       ->expected(0, 1)
       ->default_str(std::to_string(kDefaultWindow))
       ->check(CLI::Range(int64_t{1}, kMaxWindow));
-  app->callback([&command, options] { command.run = [options] { return render(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return render(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

@@ -7,9 +7,11 @@
 #include <thread>
 
 #include "core/text.h"
+#include "io/new_file.h"
 #include "tools/commands.h"
-#include "tools/files.h"
+#include "tools/file_options.h"
 #include "tools/frame_writer.h"
+#include "tools/owned_files.h"
 #include "tools/read_options.h"
 #include "tools/reprocess/job_list.h"
 #include "tools/reprocess/mpi_crew.h"
@@ -39,6 +41,7 @@ struct ReprocessOptions {
   bool resume = false;
   bool keep_going = false;
   bool json = false;
+  bool overwrite = false;
   std::optional<uint64_t> max_frames;
   bool allow_empty = false;
   std::optional<double> verify;
@@ -94,13 +97,47 @@ Result<void> check_comparable(const std::vector<Job>& jobs) {
   return {};
 }
 
-Result<void> prepare_output(const ReprocessOptions& options, const std::vector<Job>& jobs) {
+// What the run reads: nothing of it may be written to.
+OutputRule rule_of(const ReprocessOptions& options, const std::vector<Job>& jobs) {
+  OutputRule rule(options.overwrite);
+  std::error_code ignored;
+  if (!fs::is_directory(options.input, ignored)) rule.add_input(options.input);
+  if (!options.recipe.empty()) rule.add_input(options.recipe);
   for (const Job& job : jobs) {
-    if (options.resume || !has_record(options.output, job)) continue;
-    return illegal(text(options.output, " has results of ", job.relative,
-                        " already; continue with --resume, or give another output"));
+    rule.add_input(job.path);
+    const auto times = job.settings.find("at-times");
+    if (times == job.settings.end()) continue;
+    for (const std::string& name : times->second) rule.add_input(side_file(name, job.path));
   }
+  return rule;
+}
+
+// Before anything is written or computed.
+Result<void> prepare_output(const ReprocessOptions& options, const std::vector<Job>& jobs,
+                            const OutputRule& rule, const std::string& summary) {
   std::error_code error;
+  if (fs::weakly_canonical(fs::absolute(options.output, error), error).relative_path().empty()) {
+    return illegal(text(options.output, " is the root of the file system; give another folder"));
+  }
+  if (fs::exists(options.output, error) && !fs::is_directory(options.output, error)) {
+    return illegal(text(options.output, " is no folder; give another name"));
+  }
+  const bool replaces = options.resume || options.overwrite;
+  for (const Job& job : jobs) {
+    const bool finished = has_record(options.output, job);
+    if (finished && !replaces) {
+      return illegal(text(options.output, " has results of ", job.relative,
+                          " already; continue with --resume, compute them again with --overwrite, or give "
+                          "another output"));
+    }
+    // What is finished may stay; who finds that it has to be computed again checks its place then.
+    if (finished && options.resume && is_record(options.output, job)) continue;
+    if (auto r = check_place(options.output, job.relative, result_suffixes(job.settings), replaces, rule); !r)
+      return r;
+  }
+  const auto owned = OwnedFiles::read(options.output, list_name_of(summary));
+  if (!owned) return owned.error();
+  if (auto r = owned->check({summary}, replaces, rule); !r) return r;
   fs::create_directories(options.output, error);
   if (error)
     return Error{ErrorCode::io, text("cannot make the folder ", options.output, ": ", error.message())};
@@ -108,13 +145,23 @@ Result<void> prepare_output(const ReprocessOptions& options, const std::vector<J
   return {};
 }
 
+// A run that has just ended beside this one may have written a summary, too.
+Result<void> write_summary(const ReprocessOptions& options, const std::string& name, const std::string& json,
+                           const OutputRule& rule) {
+  auto scratch = ScratchFolder::create((fs::path(options.output) / name).string());
+  if (!scratch) return scratch.error();
+  if (auto r = write_new_file(scratch->file(name), json); !r) return r;
+  return OwnedFiles::replace(options.output, list_name_of(name), *scratch, {name}, /*replace=*/true, rule);
+}
+
 size_t threads_of(const ReprocessOptions& options) {
   const size_t cores = std::max(1U, std::thread::hardware_concurrency());
   return options.jobs.value_or(std::min(cores, kMostJobsByDefault));
 }
 
-Result<Workplace> workplace_of(const ReprocessOptions& options) {
+Result<Workplace> workplace_of(const ReprocessOptions& options, const OutputRule& rule) {
   Workplace workplace;
+  workplace.rule = rule;
   workplace.machine.batches = options.work.batches;
   workplace.out = options.output;
   workplace.resume = options.resume;
@@ -164,8 +211,10 @@ Result<int> work_through(const ReprocessOptions& options, MpiSession* mpi) {
   if (options.verify) {
     if (auto r = check_comparable(list->jobs); !r) return r.error();
   }
-  if (auto r = prepare_output(options, list->jobs); !r) return r.error();
-  const auto workplace = workplace_of(options);
+  const OutputRule rule = rule_of(options, list->jobs);
+  const std::string summary_file = summary_name(*shard);
+  if (auto r = prepare_output(options, list->jobs, rule, summary_file); !r) return r.error();
+  const auto workplace = workplace_of(options, rule);
   if (!workplace) return workplace.error();
 
   Threads threads(threads_of(options), *workplace);
@@ -197,13 +246,13 @@ Result<int> work_through(const ReprocessOptions& options, MpiSession* mpi) {
   summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string json = summary_json(summary);
   std::cout << (options.json ? json : summary_table(summary));
-  const auto written = write_file((fs::path(options.output) / summary_name(*shard)).string(), json);
+  const auto written = write_summary(options, summary_file, json, rule);
   if (!written) return written.error();
   return summary.good() ? 0 : 1;
 }
 
 Result<int> serve(const ReprocessOptions& options, MpiSession& mpi) {
-  const auto workplace = workplace_of(options);
+  const auto workplace = workplace_of(options, OutputRule(options.overwrite));
   if (!workplace) return workplace.error();
   Threads threads(threads_of(options), *workplace);
   if (auto r = mpi.serve(threads); !r) return r.error();
@@ -223,12 +272,13 @@ Result<int> reprocess_all(const ReprocessOptions& options) {
 void add_reprocess(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("reprocess", "One recipe for all recordings of a folder or list");
   auto options = std::make_shared<ReprocessOptions>();
-  app->add_option("input", options->input, "Folder of recordings, or file that lists recordings")->required();
-  app->add_option("-o,--output", options->output,
-                  "Folder for results, a record NAME.json beside those of each recording, and summary.json")
+  add_input_option(*app, "input", options->input, "Folder of recordings, or file that lists recordings")
       ->required();
-  app->add_option("--recipe", options->recipe,
-                  "TOML file: what is asked of the recordings; default: SCARF, one picture at the end");
+  add_output_option(*app, "-o,--output", options->output,
+                    "Folder for results, a record NAME.json beside those of each recording, and summary.json")
+      ->required();
+  add_input_option(*app, "--recipe", options->recipe,
+                   "TOML file: what is asked of the recordings; default: SCARF, one picture at the end");
   add_parsed_option(*app, "--jobs", options->jobs, parse_jobs,
                     text("Recordings at a time, default: as many as cores, up to ", kMostJobsByDefault));
   add_parsed_option(*app, "--shard", options->shard, parse_shard,
@@ -246,7 +296,12 @@ void add_reprocess(CLI::App& program, Command& command) {
                     "Which recordings --verify takes; default: random");
   app->add_flag("--json", options->json, "The summary as JSON");
   add_work_options(*app, options->work);
-  app->callback([&command, options] { command.run = [options] { return reprocess_all(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] {
+      options->overwrite = output_rule(*app).overwrite();
+      return reprocess_all(*options);
+    };
+  });
 }
 
 }  // namespace scarf::tools

@@ -6,9 +6,10 @@
 #include <optional>
 
 #include "core/text.h"
+#include "io/format.h"
 #include "scarf/io.h"
 #include "tools/commands.h"
-#include "tools/files.h"
+#include "tools/file_options.h"
 #include "tools/options.h"
 #include "tools/output_format.h"
 #include "tools/parse.h"
@@ -31,24 +32,24 @@ struct SimulateOptions {
   double truth_rate = 30;
 };
 
-// Frames and outlines at the truth rate, from time 0 to the end, into a folder that is there.
-Result<void> write_truth(const SimulateOptions& options, const Simulation& simulation) {
-  const fs::path folder = options.truth;
+// Frames and outlines at the truth rate, from time 0 to the end.
+Result<void> write_truth(const SimulateOptions& options, const Simulation& simulation,
+                         PictureFolder& folder) {
   std::string list = "index,t_us\n";
   for (int64_t i = 0;; ++i) {
     const auto t = static_cast<int64_t>(static_cast<double>(i) * 1e6 / options.truth_rate);
     if (t > simulation.duration()) break;
     const auto write = [&](std::string_view name, const Image<uint8_t>& image) {
-      return write_picture((folder / numbered_picture(name, i)).string(), as_picture(image));
+      return folder.write(name, static_cast<uint64_t>(i), as_picture(image));
     };
     if (auto r = write(kFrame, simulation.frame(t)); !r) return r;
     if (auto r = write(kEdges, simulation.edges(t)); !r) return r;
     list += text(i, ",", t, "\n");
   }
-  return write_file((folder / kPictureList).string(), list);
+  return folder.finish(list);
 }
 
-Result<int> simulate(const SimulateOptions& options) {
+Result<int> simulate(const SimulateOptions& options, const OutputRule& rule) {
   const auto simulation = make_simulation(options.simulation);
   if (!simulation) return simulation.error();
   const auto format = output_format(options.output, options.format);
@@ -59,10 +60,22 @@ Result<int> simulate(const SimulateOptions& options) {
   }
 
   // What cannot be created is told before the work is done.
-  const auto sink = create_events(options.output, *format, options.simulation.sensor);
-  if (!sink) return sink.error();
   if (!options.truth.empty()) {
-    if (auto r = make_picture_folder(options.truth, {kFrame, kEdges}); !r) return r.error();
+    if (auto r = PictureFolder::check(options.truth, {kFrame, kEdges}, rule); !r) return r.error();
+    std::error_code ignored;
+    if (fs::weakly_canonical(options.output, ignored) ==
+        fs::weakly_canonical(fs::path(options.truth) / kPictureList, ignored)) {
+      return Error{ErrorCode::illegal_parameter,
+                   text(options.output, " is the list of the pictures of --truth; give another name")};
+    }
+  }
+  const auto sink = create_recording(options.output, *format, options.simulation.sensor, rule);
+  if (!sink) return sink.error();
+  std::optional<PictureFolder> truth;
+  if (!options.truth.empty()) {
+    auto folder = PictureFolder::create(options.truth, {kFrame, kEdges}, rule);
+    if (!folder) return folder.error();
+    truth.emplace(*std::move(folder));
   }
   uint64_t events = 0;
   while (!(*simulation)->finished()) {
@@ -70,8 +83,8 @@ Result<int> simulate(const SimulateOptions& options) {
     if (auto r = (*sink)->write(step); !r) return r.error();
     events += step.size();
   }
-  if (!options.truth.empty()) {
-    if (auto r = write_truth(options, **simulation); !r) return r.error();
+  if (truth) {
+    if (auto r = write_truth(options, **simulation, *truth); !r) return r.error();
   }
   if (auto r = (*sink)->finish(); !r) return r.error();
   const double seconds = static_cast<double>((*simulation)->duration()) / 1e6;
@@ -88,15 +101,15 @@ void add_simulate(CLI::App& program, Command& command) {
       program.add_subcommand("simulate", "Record a simulated event camera that watches moving shapes");
   auto options = std::make_shared<SimulateOptions>();
   SimulationOptions& o = options->simulation;
-  app->add_option(
-         "output", options->output,
-         "Recording to write, in the format of its name (" + output_extensions() + "); - is standard output")
+  add_output_option(
+      *app, "output", options->output,
+      "Recording to write, in the format of its name (" + output_extensions() + "); - is standard output")
       ->required();
-  app->add_option("--output-format,--format", options->format,
+  add_word_option(*app, "--output-format,--format", options->format,
                   "Format, where the name does not tell; see scarf formats");
   std::string scenes;
   for (const auto name : scene_names()) scenes += (scenes.empty() ? "" : ", ") + std::string(name);
-  app->add_option("--scene", o.scene, scenes)->capture_default_str();
+  add_word_option(*app, "--scene", o.scene, scenes)->capture_default_str();
   add_parsed_option(*app, "--sensor", o.sensor, parse_sensor, "Sensor size WxH [346x260]");
   add_parsed_option(*app, "--duration", o.duration_s, parse_number, "Seconds")
       ->default_str(text(o.duration_s));
@@ -115,11 +128,13 @@ void add_simulate(CLI::App& program, Command& command) {
       ->default_str(text(o.hot_pixels));
   add_parsed_option(*app, "--seed", o.seed, parse_whole<uint64_t>, "Seed of the sensor's imperfections")
       ->default_str(text(o.seed));
-  app->add_option("--truth", options->truth,
-                  "Folder for PNG frames and masks of the true outlines, and their list frames.csv");
+  add_output_option(*app, "--truth", options->truth,
+                    "Folder for PNG frames and masks of the true outlines, and their list frames.csv");
   add_parsed_option(*app, "--truth-rate", options->truth_rate, parse_number, "Frames per second of --truth")
       ->default_str(text(options->truth_rate));
-  app->callback([&command, options] { command.run = [options] { return simulate(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return simulate(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

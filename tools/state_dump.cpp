@@ -28,8 +28,8 @@ Geometry geometry_of(const std::array<int32_t, kIntegers>& v) {
 
 }  // namespace
 
-Result<void> write_state_dump(const std::string& path, const Snapshot& snapshot) {
-  auto file = ByteWriter::create(path);
+Result<void> write_state_dump(const std::string& path, const Snapshot& snapshot, const OutputRule& rule) {
+  auto file = ByteWriter::create(path, rule);
   if (!file) return file.error();
   file->append(kMagic);
   for (const int32_t integer : integers_of(snapshot.geometry)) file->append_word(integer);

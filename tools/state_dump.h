@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "io/output_files.h"
 #include "scarf/scarf.h"
 
 namespace scarf::tools {
 
-/// Errors: io.
-Result<void> write_state_dump(const std::string& path, const Snapshot& snapshot);
+/// Errors: as OutputFile::create; io.
+Result<void> write_state_dump(const std::string& path, const Snapshot& snapshot, const OutputRule& rule);
 
 /// One patch of a dump.
 struct DumpedPatch {

@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "scarf/frames.h"
 #include "tools/commands.h"
+#include "tools/file_options.h"
 #include "tools/files.h"
 #include "tools/read_options.h"
 
@@ -18,7 +19,10 @@ struct TriggersOptions {
   bool allow_empty = false;
 };
 
-Result<int> triggers(const TriggersOptions& options) {
+Result<int> triggers(const TriggersOptions& options, const OutputRule& rule) {
+  if (!options.output.empty()) {
+    if (auto r = rule.check(options.output); !r) return r.error();
+  }
   const auto source = open_triggers(options.file, options.read);
   if (!source) return source.error();
   std::string lines = "t_us,id,value\n";
@@ -42,7 +46,7 @@ Result<int> triggers(const TriggersOptions& options) {
     if (*count == 0) break;
   }
   if (options.output.empty()) return 0;
-  if (auto r = write_file(options.output, lines); !r) return r.error();
+  if (auto r = write_file(options.output, lines, rule); !r) return r.error();
   return 0;
 }
 
@@ -52,11 +56,13 @@ void add_triggers(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand(
       "triggers", "The external triggers of a recording as lines `t_us,id,value`; value 1 is a rising edge");
   auto options = std::make_shared<TriggersOptions>();
-  app->add_option("file", options->file, "Recording; - is standard input")->required();
-  app->add_option("-o,--output", options->output, "CSV file to write instead of standard output");
+  add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
+  add_output_option(*app, "-o,--output", options->output, "CSV file to write instead of standard output");
   add_read_options(*app, options->read);
   add_allow_empty(*app, options->allow_empty);
-  app->callback([&command, options] { command.run = [options] { return triggers(*options); }; });
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return triggers(*options, output_rule(*app)); };
+  });
 }
 
 }  // namespace scarf::tools

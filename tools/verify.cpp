@@ -101,11 +101,28 @@ Result<int> verify_decoding(const VerifyOptions& options, EventSource& source, R
   return 1;
 }
 
-Result<int> verify(const VerifyOptions& options) {
+// "NAME.failing.txt", or with a number if that is there: whoever gave no name is not to lose an earlier one.
+Result<std::string> place_of_failing(const VerifyOptions& options, const OutputRule& rule) {
+  if (!options.failing.empty()) {
+    if (auto r = rule.check(options.failing); !r) return r.error();
+    return options.failing;
+  }
+  const std::string stem = std::filesystem::path(options.stream.file).stem().string();
+  std::string name = text(stem, ".failing.txt");
+  for (int i = 2; std::filesystem::symlink_status(name).type() != std::filesystem::file_type::not_found;
+       ++i) {
+    name = text(stem, ".failing-", i, ".txt");
+  }
+  return name;
+}
+
+Result<int> verify(const VerifyOptions& options, const OutputRule& rule) {
   if (options.stream.cpu) {
     return Error{ErrorCode::illegal_parameter,
                  "verify compares the CPU reference with a device; leave out --cpu"};
   }
+  const auto failing = place_of_failing(options, rule);
+  if (!failing) return failing.error();
   auto recording = open_recording(options.stream);
   if (!recording) return recording.error();
   const auto reference = make_reference(options.stream, recording->sensor);
@@ -148,10 +165,10 @@ Result<int> verify(const VerifyOptions& options) {
       shortest_failure(*std::move(run), open_again, play_options, a, b, names, make_tolerance);
   std::cout << text("different after ", failed.events, " events, ", failed.batches,
                     " batches: ", *failed.difference, "\n");
-  if (auto r = write_prefix(open_again, recording->sensor, failed.events, options.failing); !r) {
+  if (auto r = write_prefix(open_again, recording->sensor, failed.events, *failing, rule); !r) {
     return r.error();
   }
-  std::cout << text("failing prefix: ", options.failing, "\n");
+  std::cout << text("failing prefix: ", *failing, "\n");
   return 1;
 }
 
@@ -164,10 +181,9 @@ void add_verify(CLI::App& program, Command& command) {
   add_decode_option(*app, options->decode_on_device);
   add_parsed_option(*app, "--max-events", options->max_events, parse_whole<uint64_t>,
                     "Stop after so many events");
-  app->add_option(
-      "--failing", options->failing,
-      "Text recording that is written of the events up to a difference; default NAME.failing.txt in the "
-      "current folder");
+  add_output_option(*app, "--failing", options->failing,
+                    "Text recording that is written of the events up to a difference; default "
+                    "NAME.failing.txt in the current folder");
   const std::string plan = "How work is cut; never changes a result, 0 is chosen for the device";
   for (const auto& [name, number, help] :
        {std::tuple("--submission-events", &GpuOptions::submission_events, "Events per submission"),
@@ -181,11 +197,8 @@ void add_verify(CLI::App& program, Command& command) {
   app->add_option("--placing", options->plan.placing, "How events of scarf get into the rings")
       ->transform(CLI::CheckedTransformer(placings))
       ->group(plan);
-  app->callback([&command, options] {
-    if (options->failing.empty()) {
-      options->failing = std::filesystem::path(options->stream.file).stem().string() + ".failing.txt";
-    }
-    command.run = [options] { return verify(*options); };
+  app->callback([&command, app, options] {
+    command.run = [app, options] { return verify(*options, output_rule(*app)); };
   });
 }
 

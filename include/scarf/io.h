@@ -138,14 +138,23 @@ class EventSink {
   /// Errors: io; bad_input for an event that the format cannot hold, naming it (docs/FORMATS.md says what
   /// each can): the events before it are written. After out_of_memory nothing is written any more.
   virtual Result<void> write(std::span<const Event> events) = 0;
-  /// Completes the file. It is written beside its place and appears there now; destroyed without finish(), an
-  /// EventSink leaves no file.
+  /// Completes the file. It is written beside its place and appears there now, on the disk, unless another
+  /// program has made one of that name meanwhile; destroyed without finish(), an EventSink leaves no file.
   virtual Result<void> finish() = 0;
 };
 
-/// Creates or replaces a recording in one of formats(); "-" is standard output. Errors: io; illegal_parameter
-/// for a format that is not written, naming those that are, and for an illegal sensor size.
+struct WriteOptions {
+  /// Whether a regular file that is there is replaced; it leaves its permissions.
+  bool overwrite = false;
+  /// Files and folders that the events come from, "-" for standard input: never replaced, whatever their
+  /// names.
+  std::vector<std::string> inputs = {};
+};
+
+/// Creates a recording in one of formats(); "-" is standard output, devices and pipes are written directly.
+/// Errors: io; illegal_parameter for a format that is not written, naming those that are, for an illegal
+/// sensor size, and for a file that is there and may not be replaced, a symbolic link or a folder.
 Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view format,
-                                                 SensorSize sensor);
+                                                 SensorSize sensor, const WriteOptions& options = {});
 
 }  // namespace scarf

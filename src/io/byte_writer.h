@@ -3,29 +3,24 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/little_endian.h"
-#include "io/atomic_file.h"
+#include "io/output_files.h"
 #include "scarf/result.h"
 
 namespace scarf {
 
 class ByteWriter {
  public:
-  /// Creates or replaces a file; "-" is standard output. Errors: io.
-  static Result<ByteWriter> create(const std::string& path);
-  ~ByteWriter();
-  ByteWriter(ByteWriter&& other) noexcept;
-  ByteWriter(const ByteWriter&) = delete;
-  ByteWriter& operator=(const ByteWriter&) = delete;
-  ByteWriter& operator=(ByteWriter&&) = delete;
+  /// "-" is standard output. Errors: as OutputFile::create.
+  static Result<ByteWriter> create(const std::string& path, const OutputRule& rule);
 
   /// The name for messages.
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return file_.path(); }
 
   void append(std::string_view bytes) { buffer_.insert(buffer_.end(), bytes.begin(), bytes.end()); }
   /// A little-endian word.
@@ -44,13 +39,11 @@ class ByteWriter {
  private:
   static constexpr size_t kLarge = 256 * 1024;
 
-  ByteWriter(int fd, std::string path, std::unique_ptr<AtomicFile> file);
-  static Result<ByteWriter> standard_output();
+  explicit ByteWriter(OutputFile file) : file_(std::move(file)) {}
   Result<void> flush();
 
-  int fd_;
-  std::string path_;
-  std::unique_ptr<AtomicFile> file_;  // none: standard output
+  OutputFile file_;
+  bool finished_ = false;
   std::vector<char> buffer_;
 };
 

@@ -35,8 +35,9 @@ class CsvWriter final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_csv(const std::string& path, SensorSize sensor) {
-  auto output = ByteWriter::create(path);
+Result<std::unique_ptr<EventSink>> create_csv(const std::string& path, SensorSize sensor,
+                                              const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<CsvWriter>(*std::move(output), sensor));
 }

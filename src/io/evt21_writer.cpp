@@ -59,8 +59,9 @@ class Evt21Writer final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_evt21(const std::string& path, SensorSize sensor) {
-  auto output = ByteWriter::create(path);
+Result<std::unique_ptr<EventSink>> create_evt21(const std::string& path, SensorSize sensor,
+                                                const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<Evt21Writer>(*std::move(output), sensor));
 }

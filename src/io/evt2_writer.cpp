@@ -50,8 +50,9 @@ class Evt2Writer final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor) {
-  auto output = ByteWriter::create(path);
+Result<std::unique_ptr<EventSink>> create_evt2(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<Evt2Writer>(*std::move(output), sensor));
 }

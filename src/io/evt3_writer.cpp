@@ -113,8 +113,9 @@ class Evt3Writer final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor) {
-  auto output = ByteWriter::create(path);
+Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<Evt3Writer>(*std::move(output), sensor));
 }

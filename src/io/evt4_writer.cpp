@@ -63,8 +63,9 @@ class Evt4Writer final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_evt4(const std::string& path, SensorSize sensor) {
-  auto output = ByteWriter::create(path);
+Result<std::unique_ptr<EventSink>> create_evt4(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<Evt4Writer>(*std::move(output), sensor));
 }

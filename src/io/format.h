@@ -11,6 +11,7 @@
 
 #include "io/byte_reader.h"
 #include "io/input_files.h"
+#include "io/output_files.h"
 #include "io/prophesee_header.h"
 #include "scarf/frames.h"
 #include "scarf/io.h"
@@ -58,11 +59,12 @@ struct Format {
   uint32_t options = 0;    ///< FormatOption
   bool prophesee = false;  ///< may stand behind a Prophesee header
   bool packed = false;     ///< may be compressed as a whole: recognise() is asked of files that otherwise are
-                        ///< not read as they are
+                           ///< not read as they are
   std::string_view missing = {};  ///< not built in: the library and Debian package that it needs
   bool (*recognise)(const Beginning&) = nullptr;  ///< none: by name, or by a Prophesee header
   Result<std::unique_ptr<EventSource>> (*open)(Input, const ReadOptions&) = nullptr;
-  Result<std::unique_ptr<EventSink>> (*create)(const std::string& path, SensorSize sensor) = nullptr;
+  Result<std::unique_ptr<EventSink>> (*create)(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) = nullptr;
   Result<std::unique_ptr<FrameSource>> (*open_frames)(Input, const ReadOptions&) = nullptr;
   Result<std::unique_ptr<TriggerSource>> (*open_triggers)(Input, const ReadOptions&) = nullptr;
   bool writes_header = false;    ///< what `create` makes has room for EventSink::write_header ...
@@ -73,6 +75,10 @@ struct Format {
 std::span<const Format* const> all_formats();
 /// Errors: illegal_parameter, naming those that exist.
 Result<const Format*> find_format(std::string_view name);
+
+/// What create_events does, under a rule that more than one output may share. Errors: the same.
+Result<std::unique_ptr<EventSink>> create_recording(const std::string& path, std::string_view format,
+                                                    SensorSize sensor, const OutputRule& rule);
 
 /// Errors: bad_input, for an input that is a pipe or memory: `title` needs a file.
 Result<void> require_path(const Input& input, std::string_view title);

@@ -92,7 +92,7 @@ Result<void> EventSink::write_triggers(std::span<const Trigger>) {
 namespace {
 
 Result<std::unique_ptr<EventSink>> create_unguarded(const std::string& path, std::string_view name,
-                                                    SensorSize sensor) {
+                                                    SensorSize sensor, const OutputRule& rule) {
   const auto format = find_format(name);
   if (!format) return format.error();
   if ((*format)->create == nullptr) {
@@ -102,17 +102,24 @@ Result<std::unique_ptr<EventSink>> create_unguarded(const std::string& path, std
   }
   const auto legal = checked_sensor(sensor.width, sensor.height, text(path, ": the sensor size given"));
   if (!legal) return Error{ErrorCode::illegal_parameter, legal.error().message};
-  return (*format)->create(path, sensor);
+  return (*format)->create(path, sensor, rule);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view name,
-                                                 SensorSize sensor) {
+Result<std::unique_ptr<EventSink>> create_recording(const std::string& path, std::string_view name,
+                                                    SensorSize sensor, const OutputRule& rule) {
   return as_result([&]() -> Result<std::unique_ptr<EventSink>> {
-    auto sink = create_unguarded(path, name, sensor);
+    auto sink = create_unguarded(path, name, sensor, rule);
     if (!sink) return sink.error();
     return guarded(*std::move(sink));
+  });
+}
+
+Result<std::unique_ptr<EventSink>> create_events(const std::string& path, std::string_view name,
+                                                 SensorSize sensor, const WriteOptions& options) {
+  return as_result([&]() -> Result<std::unique_ptr<EventSink>> {
+    return create_recording(path, name, sensor, OutputRule(options.overwrite, options.inputs));
   });
 }
 

@@ -40,13 +40,14 @@ class NpyWriter final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_npy(const std::string& path, SensorSize sensor) {
+Result<std::unique_ptr<EventSink>> create_npy(const std::string& path, SensorSize sensor,
+                                              const OutputRule& rule) {
   if (path == "-") {
     return Error{
         ErrorCode::illegal_parameter,
         "npy begins with the number of events, so that it cannot go to standard output; name a file"};
   }
-  auto output = ByteWriter::create(path);
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<NpyWriter>(*std::move(output), sensor));
 }

@@ -44,8 +44,9 @@ class TextWriter final : public CheckedSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor) {
-  auto output = ByteWriter::create(path);
+Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
   if (!output) return output.error();
   return std::unique_ptr<EventSink>(std::make_unique<TextWriter>(*std::move(output), sensor));
 }

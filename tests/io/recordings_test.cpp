@@ -60,7 +60,7 @@ TEST_P(Recordings, ComeBackFromEveryWriter) {
   const auto original = read_all(*std::move(source), 1 << 16);
   for (const char* format : {"dat", "evt2", "evt21", "evt3", "evt4", "es", "npy", "csv", "text"}) {
     const TemporaryFile file;
-    auto sink = create_events(file.path(), format, GetParam().sensor);
+    auto sink = create_events(file.path(), format, GetParam().sensor, {.overwrite = true});
     ASSERT_TRUE(sink.ok()) << sink.error().message;
     ASSERT_TRUE((*sink)->write(original.events).ok());
     ASSERT_TRUE((*sink)->finish().ok());

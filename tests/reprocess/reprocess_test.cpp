@@ -16,7 +16,7 @@ class Reprocess : public ReprocessTest {
  protected:
   void record(const std::string& name, uint64_t seed, size_t count = 3000) {
     fs::create_directories(fs::path(path(name)).parent_path());
-    auto sink = *create_events(path(name), seed % 2 == 0 ? "text" : "evt3", kSensor);
+    auto sink = *create_events(path(name), seed % 2 == 0 ? "text" : "evt3", kSensor, {.overwrite = true});
     ASSERT_TRUE(sink->write(random_events(count, kSensor, seed)).ok());
     ASSERT_TRUE(sink->finish().ok());
   }
@@ -111,7 +111,7 @@ TEST_F(Reprocess, ARecipeHasTheProductsOfRender) {
     const Json record = json_in(path(machine + "/a.raw.json"));
     EXPECT_EQ(record["outputs"], Json({".png", ".npy", ".tensors.h5", ".events.npz"}));
     EXPECT_EQ(record["counts"]["frames"], 3);
-    const Outcome rendered = shell(text(SCARF_PROGRAM, " render --cpu ", path("in/a.raw"), " -o ",
+    const Outcome rendered = shell(text(SCARF_PROGRAM, " render --cpu ", path("in/a.raw"), " --overwrite -o ",
                                         path("rendered.npy"), " --pixels float --every 1000"));
     ASSERT_EQ(rendered.exit_code, 0) << rendered.err;
     EXPECT_EQ(content_of(path(machine + "/a.raw.npy")), content_of(path("rendered.npy")));
@@ -325,6 +325,107 @@ TEST_F(Reprocess, TasksOfASlurmArrayShareTheWork) {
   for (const char* shard : {"1", "2", "3"}) {
     EXPECT_TRUE(fs::exists(path(text("out/summary.", shard, "-of-3.json")))) << shard;
   }
+}
+
+// Everything below a folder that is not new: names, permissions, bytes.
+std::map<std::string, std::string> everything(const std::string& folder) {
+  std::map<std::string, std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto mode = static_cast<unsigned>(entry.status().permissions());
+    found[entry.path().string()] =
+        text(mode, entry.is_regular_file() ? content_of(entry.path().string()) : std::string());
+  }
+  return found;
+}
+
+TEST_F(Reprocess, ResultsNeverTakeThePlaceOfInputs) {
+  record("in/rec.raw", 1);
+  for (const auto& [output, victim] :
+       {std::pair{".h5", "rec.raw.h5"}, std::pair{".npy", "rec.raw.csv"}, std::pair{".png", "rec.raw.png"},
+        std::pair{".png", "rec.raw.json"}, std::pair{".frames/", "rec.raw.frames"}}) {
+    const std::string file = path(text("in/", victim));
+    fs::create_hard_link(path("in/rec.raw"), file);
+    write_text(path("recipe.toml"), text("output = [\"", output, "\"]\n"));
+    const auto before = everything(path("in"));
+    for (const char* more : {"", " --resume", " --overwrite"}) {
+      const Outcome outcome = run(in_to("in", text("--cpu --recipe ", path("recipe.toml"), more)));
+      EXPECT_EQ(outcome.exit_code, 2) << output << more << outcome.out;
+      EXPECT_THAT(outcome.err, HasSubstr("rec.raw"));
+      EXPECT_EQ(everything(path("in")), before) << output << more;
+    }
+    fs::remove(file);
+  }
+  // A list, a recipe and a file of times are inputs as well.
+  write_text(path("in/rec.raw.json"), "in/rec.raw\n");
+  EXPECT_EQ(run(text(path("in/rec.raw.json"), " --cpu --overwrite -o ", path("in"))).exit_code, 1);
+  EXPECT_EQ(content_of(path("in/rec.raw.json")), "in/rec.raw\n");
+}
+
+TEST_F(Reprocess, WhatScarfHasNotWrittenStays) {
+  record("in/a.raw", 1);
+  write_text(path("recipe.toml"), "output = [\".frames/\", \".npy\"]\n");
+  const std::string more = text("--cpu --recipe ", path("recipe.toml"));
+  for (const std::string foreign : {"a.raw.frames/notes.txt", "a.raw.npy", "a.raw.csv", "a.raw.json",
+                                    "a.raw.tmp/notes.txt", "summary.json", ".a.raw.scarf-files"}) {
+    fs::create_directories(fs::path(path("out/" + foreign)).parent_path());
+    write_text(path("out/" + foreign), "{\"my\": \"notes\"}");
+    const auto before = everything(path("out"));
+    for (const std::string how : {"", " --resume", " --overwrite"}) {
+      const Outcome outcome = run(in_to("out", more + how));
+      EXPECT_EQ(outcome.exit_code, 2) << foreign << how << outcome.out;
+      EXPECT_EQ(everything(path("out")), before) << foreign << how;
+    }
+    fs::remove_all(path("out"));
+  }
+}
+
+TEST_F(Reprocess, OverwriteReplacesWhatScarfHasWrittenAndNothingElse) {
+  record("in/a.raw", 1);
+  write_text(path("recipe.toml"), "output = [\".frames/\", \".npy\"]\nevery = 1000\n");
+  const std::string more = text("--cpu --recipe ", path("recipe.toml"));
+  ASSERT_EQ(run(in_to("out", more)).exit_code, 0);
+  EXPECT_EQ(run(in_to("out", more)).exit_code, 2);
+  const auto before = records("out");
+  write_text(path("out/notes.txt"), "precious");
+  ASSERT_EQ(run(in_to("out", more + " --overwrite")).exit_code, 0);
+  EXPECT_EQ(records("out"), before);
+  // Another recipe: what is not made any more goes away.
+  ASSERT_EQ(run(in_to("out", "--cpu --overwrite")).exit_code, 0);
+  EXPECT_TRUE(fs::exists(path("out/a.raw.png")));
+  EXPECT_FALSE(fs::exists(path("out/a.raw.npy")) || fs::exists(path("out/a.raw.frames")));
+  EXPECT_EQ(content_of(path("out/notes.txt")), "precious");
+  // What someone has changed or added belongs to him.
+  ASSERT_EQ(run(in_to("out", more + " --overwrite")).exit_code, 0);
+  write_text(path("out/a.raw.frames/notes.txt"), "precious");
+  EXPECT_EQ(run(in_to("out", more + " --overwrite")).exit_code, 2);
+  EXPECT_EQ(content_of(path("out/a.raw.frames/notes.txt")), "precious");
+  const Json list = Json::parse(content_of(path("out/.a.raw.scarf-files")));
+  EXPECT_EQ(list["schema"], 1);
+  EXPECT_EQ(list["files"].size(), 4u);
+}
+
+TEST_F(Reprocess, ResultsBesideTheirRecordingsAreNoRecordings) {
+  record("in/a.raw", 1);
+  ASSERT_EQ(run(in_to("in")).exit_code, 0);
+  const Outcome again = run(in_to("in", "--cpu --resume"));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json_in(path("in/summary.json"))["totals"]["files"], 1);
+}
+
+TEST_F(Reprocess, ASignalLeavesNothingUnfinished) {
+  record("in/a.raw", 1, 400'000);
+  write_text(path("recipe.toml"), "output = [\".frames/\", \".npy\"]\nevery = 1000\nsparse = \".npz\"\n");
+  const auto before = everything(path("in"));
+  for (const char* signal : {"INT", "TERM", "HUP"}) {
+    const Outcome outcome =
+        shell(text("timeout --foreground -s ", signal, " 1 ", SCARF_PROGRAM, " reprocess ",
+                   in_to("out", text("--cpu --batch 100 --recipe ", path("recipe.toml"))), "; true"));
+    if (!fs::exists(path("out"))) continue;
+    if (fs::exists(path("out/a.raw.json"))) GTEST_SKIP() << "finished before the signal came";
+    EXPECT_TRUE(everything(path("out")).empty()) << signal << " " << everything(path("out")).begin()->first;
+    fs::remove_all(path("out"));
+  }
+  EXPECT_EQ(everything(path("in")), before);
 }
 
 TEST_F(Reprocess, BadUsageExitsWithTwo) {

@@ -50,8 +50,8 @@ TEST_F(Copies, RoundTripsThroughEveryWriterKeepTheEvents) {
     EXPECT_EQ(there.exit_code, 0) << format.name << ": " << there.err;
     EXPECT_THAT(there.out, HasSubstr("\nlossless\n")) << format.name;
     EXPECT_THAT(there.out, HasSubstr("\nevents " + digest + "\n")) << format.name;
-    const Outcome back =
-        run("convert " + copy + " " + path("back.txt") + " --geometry 64x48 --format " + format.name);
+    const Outcome back = run("convert " + copy + " " + path("back.txt") +
+                             " --overwrite --geometry 64x48 --format " + format.name);
     EXPECT_THAT(back.out, HasSubstr("\nevents " + digest + "\n")) << format.name;
   }
   EXPECT_GE(written, 3u);
@@ -72,10 +72,11 @@ TEST_F(Copies, TellWhatIsLostAndChanged) {
   const Outcome clamped = run("convert " + path("back.txt") + " " + path("a.raw") + " --time-policy clamp");
   EXPECT_THAT(clamped.out, HasSubstr("changed: 1 times of back-steps"));
   EXPECT_THAT(clamped.out, Not(HasSubstr("lossless")));
-  const Outcome dropped = run("convert " + path("back.txt") + " " + path("a.raw") + " --time-policy drop");
+  const Outcome dropped =
+      run("convert " + path("back.txt") + " " + path("a.raw") + " --overwrite --time-policy drop");
   EXPECT_THAT(dropped.out, HasSubstr("lost: 1 events older"));
   std::ofstream(path("outside.txt")) << "64 48\n0.1 3 4 1\n0.2 64 4 1\n";
-  EXPECT_THAT(run("convert " + path("outside.txt") + " " + path("a.raw")).out,
+  EXPECT_THAT(run("convert --overwrite " + path("outside.txt") + " " + path("a.raw")).out,
               HasSubstr("lost: 1 events outside the sensor"));
   EXPECT_EQ(run("convert " + path("outside.txt") + " " + path("a.raw") + " --out-of-sensor error").exit_code,
             1);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -15,6 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 // A picture with all 256 values.
 cv::Mat ramp(int shift) {
@@ -28,7 +30,7 @@ bool equal(const cv::Mat& a, const cv::Mat& b) {
 }
 
 std::unique_ptr<FrameWriter> make(const std::string& path) {
-  auto writer = make_frame_writer(path, *output_kind(path), 30);
+  auto writer = make_frame_writer(path, *output_kind(path), 30, OutputRule());
   EXPECT_TRUE(writer.ok()) << writer.error().message;
   return *std::move(writer);
 }
@@ -48,29 +50,94 @@ TEST(OutputKind, IsTakenFromTheName) {
 
 TEST(FolderWriter, NumbersFramesAndListsThem) {
   const TemporaryFolder folder;
-  const auto writer = make(folder.path("a/b"));
-  ASSERT_TRUE(writer->write({-7, 100}, ramp(0)).ok());
-  ASSERT_TRUE(writer->write({33, 250}, ramp(9)).ok());
-  ASSERT_TRUE(writer->finish().ok());
+  {
+    const auto writer = make(folder.path("a/b"));
+    ASSERT_TRUE(writer->write({-7, 100}, ramp(0)).ok());
+    ASSERT_TRUE(writer->write({33, 250}, ramp(9)).ok());
+    EXPECT_FALSE(fs::exists(folder.path("a/b"))) << "an unfinished folder must not look like a finished one";
+    ASSERT_TRUE(writer->finish().ok());
+  }
   EXPECT_TRUE(equal(cv::imread(folder.path("a/b/frame_000000.png"), cv::IMREAD_UNCHANGED), ramp(0)));
   EXPECT_TRUE(equal(cv::imread(folder.path("a/b/frame_000001.png"), cv::IMREAD_UNCHANGED), ramp(9)));
   EXPECT_EQ(content_of(folder.path("a/b/frames.csv")), "index,t_us,events\n0,-7,100\n1,33,250\n");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("a/b")), fs::directory_iterator()), 3);
+  const Json list = Json::parse(content_of(folder.path("a/b/.scarf-files")));
+  EXPECT_EQ(list["schema"], 1);
+  ASSERT_EQ(list["files"].size(), 3u);
+  EXPECT_EQ(list["files"][0]["name"], "frame_000000.png");
+  EXPECT_EQ(list["files"][0]["bytes"], fs::file_size(folder.path("a/b/frame_000000.png")));
+  EXPECT_EQ(list["files"][2]["name"], "frames.csv");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("a/b")), fs::directory_iterator()), 4);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("a")), fs::directory_iterator()), 1);
+}
+
+// One frame; the error, or "".
+std::string render_one(const std::string& path, int shift, bool overwrite) {
+  auto writer = make_frame_writer(path, OutputKind::folder, 30, OutputRule(overwrite));
+  if (!writer) return writer.error().message;
+  EXPECT_TRUE((*writer)->write({0, 0}, ramp(shift)).ok());
+  const auto finished = (*writer)->finish();
+  return finished ? "" : finished.error().message;
 }
 
 TEST(FolderWriter, ReplacesAnEarlierRenderingAndNothingElse) {
   const TemporaryFolder folder;
-  for (const char* name :
-       {"frame_000000.png", "frame_000005.png", "frame_1.png", "frame_00000x.png", "notes"}) {
-    write_text(folder.path(name), "old");
+  fs::create_directory(folder.path("out"));
+  write_text(folder.path("out/notes"), "precious");
+  write_text(folder.path("out/frame_1.png"), "precious");
+  {
+    auto writer = make_frame_writer(folder.path("out"), OutputKind::folder, 30, OutputRule());
+    ASSERT_TRUE(writer.ok()) << writer.error().message;
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE((*writer)->write({i, 0}, ramp(i)).ok());
+    ASSERT_TRUE((*writer)->finish().ok());
   }
-  const auto writer = make(folder.path(""));
-  ASSERT_TRUE(writer->write({0, 0}, ramp(0)).ok());
-  EXPECT_FALSE(fs::exists(folder.path("frame_000005.png")));
-  EXPECT_TRUE(equal(cv::imread(folder.path("frame_000000.png"), cv::IMREAD_UNCHANGED), ramp(0)));
-  for (const char* name : {"frame_1.png", "frame_00000x.png", "notes"}) {
-    EXPECT_EQ(content_of(folder.path(name)), "old") << name;
+  EXPECT_THAT(render_one(folder.path("out"), 7, false), HasSubstr("--overwrite"));
+  EXPECT_TRUE(fs::exists(folder.path("out/frame_000002.png")));
+  EXPECT_EQ(render_one(folder.path("out"), 7, true), "");
+  EXPECT_FALSE(fs::exists(folder.path("out/frame_000002.png")));
+  EXPECT_TRUE(equal(cv::imread(folder.path("out/frame_000000.png"), cv::IMREAD_UNCHANGED), ramp(7)));
+  for (const char* name : {"out/notes", "out/frame_1.png"}) {
+    EXPECT_EQ(content_of(folder.path(name)), "precious") << name;
   }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("out")), fs::directory_iterator()), 5);
+}
+
+TEST(FolderWriter, PicturesOfOthersAreInTheWay) {
+  const TemporaryFolder folder;
+  for (const char* name : {"frame_000005.png", "frame_00000000.png", "frames.csv", ".scarf-files"}) {
+    const std::string out = folder.path("out");
+    fs::create_directory(out);
+    write_text(out + "/" + name, "precious");
+    EXPECT_THAT(render_one(out, 0, true), HasSubstr(name));
+    EXPECT_EQ(content_of(out + "/" + name), "precious");
+    EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 1) << name;
+    fs::remove_all(out);
+  }
+  EXPECT_THAT(render_one("/", 0, true), HasSubstr("root"));
+}
+
+TEST(FolderWriter, PicturesThatWereChangedBelongToWhoChangedThem) {
+  const TemporaryFolder folder;
+  const std::string picture = folder.path("out/frame_000000.png");
+  for (const bool same_size : {false, true}) {
+    ASSERT_EQ(render_one(folder.path("out"), 0, false), "");
+    std::string content = content_of(picture);
+    same_size ? void(content.back() ^= 1) : content.push_back('x');
+    write_text(picture, content);
+    EXPECT_THAT(render_one(folder.path("out"), 0, true), HasSubstr("frame_000000.png was changed"));
+    EXPECT_EQ(content_of(picture), content);
+    fs::remove_all(folder.path("out"));
+  }
+}
+
+// A list that someone else has made cannot make scarf remove what it should not.
+TEST(FolderWriter, AListNamesFilesOfItsFolderOnly) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("out"));
+  write_text(folder.path("victim"), "precious");
+  const std::string list = R"({"schema": 1, "files": [{"name": "../victim", "bytes": 8}]})";
+  write_text(folder.path("out/.scarf-files"), list);
+  EXPECT_THAT(render_one(folder.path("out"), 0, true), HasSubstr(".scarf-files"));
+  EXPECT_EQ(content_of(folder.path("victim")), "precious");
 }
 
 TEST(ImageWriter, KeepsEveryValue) {
@@ -85,7 +152,7 @@ TEST(ImageWriter, AMissingFolderIsAnErrorAtOnce) {
   const TemporaryFolder folder;
   for (const char* name : {"none/a.png", "none/a.mp4"}) {
     const std::string path = folder.path(name);
-    const auto writer = make_frame_writer(path, *output_kind(path), 30);
+    const auto writer = make_frame_writer(path, *output_kind(path), 30, OutputRule());
     ASSERT_FALSE(writer.ok());
     EXPECT_EQ(writer.error().code, ErrorCode::io);
   }
@@ -95,7 +162,7 @@ TEST(VideoWriter, HoldsAllFramesAtItsSpeed) {
   const TemporaryFolder folder;
   for (const char* name : {"a.mp4", "a.avi"}) {
     const std::string path = folder.path(name);
-    auto writer = *make_frame_writer(path, OutputKind::video, 25);
+    auto writer = *make_frame_writer(path, OutputKind::video, 25, OutputRule());
     for (int i = 0; i < 7; ++i) ASSERT_TRUE(writer->write({i, 0}, ramp(i)).ok()) << name;
     EXPECT_FALSE(fs::exists(path)) << "an unfinished video must not look like a finished one";
     const auto finished = writer->finish();

@@ -19,21 +19,20 @@ TEST_F(Program, FramesOfARecording) {
   cv::imwrite(path("ecd/images/a.png"), first);
   cv::imwrite(path("ecd/images/b.png"), second);
 
-  fs::create_directories(path("pictures"));
-  write_text(path("pictures/frame_000009.png"), "of an earlier run");
   EXPECT_EQ(run("frames " + path("ecd") + " -o " + path("pictures")).exit_code, 0);
   EXPECT_EQ(content_of(path("pictures/frames.csv")),
             "index,t_us,exposure_begin_us,exposure_end_us\n0,200,200,200\n1,25000,25000,25000\n");
   expect_picture(path("pictures/frame_000000.png"), first);
   expect_picture(path("pictures/frame_000001.png"), second);
-  EXPECT_FALSE(fs::exists(path("pictures/frame_000009.png")));
 
   fs::remove(path("ecd/images/b.png"));
-  const Outcome broken = run("frames " + path("ecd") + " -o " + path("pictures"));
+  EXPECT_EQ(run("frames " + path("ecd") + " -o " + path("pictures")).exit_code, 2);
+  const Outcome broken = run("frames " + path("ecd") + " --overwrite -o " + path("pictures"));
   EXPECT_EQ(broken.exit_code, 1);
   EXPECT_THAT(broken.err, HasSubstr("images/b.png"));
   EXPECT_EQ(content_of(path("pictures/frames.csv")),
             "index,t_us,exposure_begin_us,exposure_end_us\n0,200,200,200\n");
+  EXPECT_FALSE(fs::exists(path("pictures/frame_000001.png"))) << "of the earlier run";
 }
 
 // A packet of AEDAT 3.1 with one frame, which says that it has so many columns and rows.

@@ -35,7 +35,7 @@ Stored stored(const std::string& path, const char* dataset) {
 TEST(Hdf5Writer, FramesGrowOneByOne) {
   const TemporaryFolder folder;
   const std::string path = folder.path("frames.h5");
-  auto made = create_hdf5_arrays(path, kHdf5Frames, Hdf5Element::u8, {2, 3});
+  auto made = create_hdf5_arrays(path, kHdf5Frames, Hdf5Element::u8, {2, 3}, OutputRule());
   ASSERT_TRUE(made.ok()) << made.error().message;
   for (uint8_t i = 0; i < 3; ++i) {
     const std::vector<uint8_t> picture = {i, 1, 2, 3, 4, 255};
@@ -54,7 +54,7 @@ TEST(Hdf5Writer, FramesGrowOneByOne) {
 TEST(Hdf5Writer, TensorsHaveTheirChannels) {
   const TemporaryFolder folder;
   const std::string path = folder.path("tensors.h5");
-  auto made = create_hdf5_arrays(path, kHdf5Tensors, Hdf5Element::f32, {2, 1, 2});
+  auto made = create_hdf5_arrays(path, kHdf5Tensors, Hdf5Element::f32, {2, 1, 2}, OutputRule());
   ASSERT_TRUE(made.ok()) << made.error().message;
   ASSERT_TRUE((*made)->write({7, 9}, std::vector<float>{0.5F, -1, 2, 3}).ok());
   ASSERT_TRUE((*made)->finish().ok());
@@ -64,7 +64,7 @@ TEST(Hdf5Writer, TensorsHaveTheirChannels) {
 
 TEST(Hdf5Writer, RefusesOtherArrays) {
   const TemporaryFolder folder;
-  auto made = create_hdf5_arrays(folder.path("a.h5"), kHdf5Frames, Hdf5Element::u8, {2, 2});
+  auto made = create_hdf5_arrays(folder.path("a.h5"), kHdf5Frames, Hdf5Element::u8, {2, 2}, OutputRule());
   ASSERT_TRUE(made.ok());
   EXPECT_FALSE((*made)->write({}, std::vector<uint8_t>(5)).ok());
   EXPECT_FALSE((*made)->write({}, std::vector<float>(4)).ok());
@@ -73,7 +73,7 @@ TEST(Hdf5Writer, RefusesOtherArrays) {
 TEST(Hdf5Writer, SparseEventsOfFrames) {
   const TemporaryFolder folder;
   const std::string path = folder.path("events.h5");
-  auto made = create_hdf5_events(path, {640, 480});
+  auto made = create_hdf5_events(path, {640, 480}, OutputRule());
   ASSERT_TRUE(made.ok()) << made.error().message;
   ASSERT_TRUE((*made)->write({10, 2}, std::vector<Event>{{-1, 2, 3, 1}, {5, 639, 479, 0}}).ok());
   ASSERT_TRUE((*made)->write({20, 2}, std::vector<Event>{}).ok());
@@ -92,9 +92,9 @@ TEST(Hdf5Writer, SparseEventsOfFrames) {
 TEST(Hdf5Writer, AnAbandonedFileLeavesNone) {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.h5");
-  { auto made = create_hdf5_arrays(path, kHdf5Frames, Hdf5Element::u8, {1, 1}); }
+  { auto made = create_hdf5_arrays(path, kHdf5Frames, Hdf5Element::u8, {1, 1}, OutputRule()); }
   EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_FALSE(create_hdf5_events("/nonexistent/a.h5", {1, 1}).ok());
+  EXPECT_FALSE(create_hdf5_events("/nonexistent/a.h5", {1, 1}, OutputRule()).ok());
 }
 
 }  // namespace

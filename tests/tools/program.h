@@ -50,7 +50,7 @@ class Program : public testing::Test {
   // A recording of random events, and its path.
   std::string recording(size_t count = 20'000) {
     events_ = random_events(count, kSensor);
-    auto sink = *create_events(path("recording.txt"), "text", kSensor);
+    auto sink = *create_events(path("recording.txt"), "text", kSensor, {.overwrite = true});
     EXPECT_TRUE(sink->write(events_).ok());
     EXPECT_TRUE(sink->finish().ok());
     return path("recording.txt");

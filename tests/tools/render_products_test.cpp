@@ -24,7 +24,9 @@ class Products : public Program {
 TEST_F(Products, AnNpyArrayHoldsThePicturesOfTheFrames) {
   const std::string file = recording(20'000);
   for (const std::string device : {"", " --cpu"}) {
-    ASSERT_EQ(run("render " + file + " -o " + path("frames.npy") + " --every 7000" + device).exit_code, 0);
+    ASSERT_EQ(
+        run("render --overwrite " + file + " -o " + path("frames.npy") + " --every 7000" + device).exit_code,
+        0);
     const std::string bytes = bytes_of(path("frames.npy"));
     ASSERT_EQ(bytes.size(), kHeader + 2 * 64 * 48);
     EXPECT_THAT(bytes.substr(0, kHeader), HasSubstr("'descr': '|u1'"));
@@ -75,11 +77,11 @@ TEST_F(Products, SparseEventsAndTensorsAreReadByPython) {
   }
   const std::string file = recording(20'000);
   for (const std::string device : {"", " --cpu"}) {
-    ASSERT_EQ(
-        run("render " + file + " -o " + path("a.h5") + " --every 5000 --sparse " + path("s.npz") + device)
-            .exit_code,
-        0);
-    ASSERT_EQ(run("render " + file + " -o " + path("t.h5") +
+    ASSERT_EQ(run("render --overwrite " + file + " -o " + path("a.h5") + " --every 5000 --sparse " +
+                  path("s.npz") + device)
+                  .exit_code,
+              0);
+    ASSERT_EQ(run("render --overwrite " + file + " -o " + path("t.h5") +
                   " --every 5000 --encoding voxel_grid:bins=3 --sparse " + path("s.h5") + device)
                   .exit_code,
               0);

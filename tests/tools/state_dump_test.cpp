@@ -36,7 +36,7 @@ std::string error_of(const std::string& path) {
 TEST(StateDump, EveryPatchComesBack) {
   const TemporaryFolder folder;
   const Snapshot snapshot = some_state();
-  ASSERT_TRUE(write_state_dump(folder.path("dump"), snapshot).ok());
+  ASSERT_TRUE(write_state_dump(folder.path("dump"), snapshot, OutputRule()).ok());
   auto dump = StateDump::open(folder.path("dump"));
   ASSERT_TRUE(dump.ok()) << dump.error().message;
   EXPECT_EQ(dump->geometry(), snapshot.geometry);
@@ -53,7 +53,7 @@ TEST(StateDump, EveryPatchComesBack) {
 TEST(StateDump, HoldsTheHashedBytesBehindItsHeader) {
   const TemporaryFolder folder;
   const Snapshot snapshot = some_state();
-  ASSERT_TRUE(write_state_dump(folder.path("dump"), snapshot).ok());
+  ASSERT_TRUE(write_state_dump(folder.path("dump"), snapshot, OutputRule()).ok());
   const std::string content = content_of(folder.path("dump"));
   ASSERT_EQ(content.substr(0, 8), "SCARFST1");
   EXPECT_EQ(content.substr(8, 8), std::string("\x28\0\0\0\x1e\0\0\0", 8));  // 40, 30
@@ -68,7 +68,7 @@ TEST(StateDump, NegativeOriginsAndTimesComeBack) {
   const auto scarf = *make_reference_scarf({{40, 8, -3, 6, 2, 2}, {30, 8, -5, 5, 2, 2}, 4});
   ASSERT_TRUE(scarf->push(events_at({-5, -4, 7})).ok());
   const Snapshot snapshot = *scarf->snapshot().wait();
-  ASSERT_TRUE(write_state_dump(folder.path("dump"), snapshot).ok());
+  ASSERT_TRUE(write_state_dump(folder.path("dump"), snapshot, OutputRule()).ok());
   auto dump = StateDump::open(folder.path("dump"));
   ASSERT_TRUE(dump.ok());
   EXPECT_EQ(dump->geometry(), snapshot.geometry);
@@ -78,7 +78,7 @@ TEST(StateDump, NegativeOriginsAndTimesComeBack) {
 TEST(StateDump, DamageIsNamed) {
   const TemporaryFolder folder;
   const std::string path = folder.path("dump");
-  ASSERT_TRUE(write_state_dump(path, some_state()).ok());
+  ASSERT_TRUE(write_state_dump(path, some_state(), OutputRule()).ok());
   const std::string good = content_of(path);
   EXPECT_EQ(error_of(path), "");
 
@@ -108,7 +108,7 @@ TEST(StateDump, DamageIsNamed) {
 
 TEST(StateDump, AFullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
-  const auto written = write_state_dump("/dev/full", some_state());
+  const auto written = write_state_dump("/dev/full", some_state(), OutputRule());
   ASSERT_FALSE(written.ok());
   EXPECT_EQ(written.error().code, ErrorCode::io);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));

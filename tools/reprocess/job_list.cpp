@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "tools/owned_files.h"
 #include "tools/reprocess/manifest.h"
 #include "tools/reprocess/result_place.h"
 
@@ -67,7 +68,8 @@ class FolderWalk {
   JobList walk(const fs::path& root) {
     std::error_code error;
     const std::string name = fs::weakly_canonical(root, error).filename().string();
-    if (const auto identity = identity_of(root)) entered_.emplace(*identity, name);
+    root_ = identity_of(root);
+    if (root_) entered_.emplace(*root_, name);
     if (is_one_job(root, recipe_.for_recording(name))) {
       add_job(name, root);
     } else {
@@ -102,13 +104,34 @@ class FolderWalk {
     }
     if (error) settle(relative, Status::failed, text("cannot list ", folder.string(), ": ", error.message()));
     std::sort(entries.begin(), entries.end());
+    const auto ours = results_in(folder, entries);
     for (const fs::path& entry : entries) {
       const std::string name = entry.filename().string();
+      if (is_list_name(name) || ours.contains(name)) continue;
       visit(entry, relative.empty() ? name : text(relative, "/", name));
     }
   }
 
+  // Where results go beside their recordings they are no recordings themselves.
+  std::set<std::string> results_in(const fs::path& folder, const std::vector<fs::path>& entries) const {
+    std::set<std::string> ours;
+    if (root_ != out_) return ours;
+    for (const fs::path& list : entries) {
+      if (!is_list_name(list.filename().string())) continue;
+      const auto owned = OwnedFiles::read(folder.string(), list.filename().string());
+      if (!owned) continue;
+      for (const fs::path& entry : entries) {
+        if (owned->owns(entry.filename().string())) ours.insert(entry.filename().string());
+      }
+    }
+    return ours;
+  }
+
   void visit(const fs::path& entry, const std::string& relative) {
+    if (is_temporary_name(entry.filename().string())) {
+      return settle(relative, Status::skipped,
+                    "an unfinished output of scarf, left by a run that was killed");
+    }
     std::error_code error;
     const fs::file_status status = fs::status(entry, error);
     if (status.type() == fs::file_type::not_found || status.type() == fs::file_type::none) {
@@ -146,6 +169,7 @@ class FolderWalk {
 
   const Recipe& recipe_;
   const std::optional<std::pair<dev_t, ino_t>> out_;
+  std::optional<std::pair<dev_t, ino_t>> root_;
   std::map<std::pair<dev_t, ino_t>, std::string> entered_;  // folders, and where they are listed
   std::deque<std::pair<fs::path, std::string>> links_;
   JobList list_;
@@ -213,7 +237,7 @@ Result<void> check_places(const std::vector<Job>& jobs) {
   for (const Job& job : jobs) {
     std::vector<std::string> mine = {text(job.relative, kRecordSuffix),
                                      text(job.relative, kUnfinishedSuffix)};
-    for (const std::string& suffix : suffixes_of(job.settings)) {
+    for (const std::string& suffix : result_suffixes(job.settings)) {
       mine.push_back(job.relative + suffix.substr(0, suffix.size() - (suffix.ends_with('/') ? 1 : 0)));
     }
     for (const std::string& place : mine) {

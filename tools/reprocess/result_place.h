@@ -1,9 +1,10 @@
 // The place of one recording's results in the output tree, filled so that a crash at any moment leaves the
 // recording either finished or plainly unfinished.
 //
-// Everything is written into a folder <recording>.tmp/ under its final name. When all of it has reached the
-// disk it is moved to its place, and when that has reached the disk too, the record is moved last: a record
-// that is there tells that everything it names is there, complete.
+// Everything is written into a folder of its own within <recording>.tmp/. When all of it has reached the disk
+// it is moved to its place, and when that has reached the disk too, the record is moved last: a record that
+// is there tells that everything it names is there, complete. A hidden list (owned_files.h) says which
+// results are ours.
 #pragma once
 
 #include <string>
@@ -11,17 +12,26 @@
 #include <vector>
 
 #include "scarf/result.h"
+#include "tools/owned_files.h"
 
 namespace scarf::tools::reprocess {
 
 inline constexpr std::string_view kRecordSuffix = ".json";
 inline constexpr std::string_view kUnfinishedSuffix = ".tmp";
 
+/// Whether results may go to their place. `suffixes` are added to the name of the recording; the record is
+/// one more. Results of an earlier run may be there if `replace` says so and nobody has changed them; nothing
+/// else may. Errors: illegal_parameter, naming what is in the way; io.
+Result<void> check_place(const std::string& out, const std::string& relative,
+                         const std::vector<std::string>& suffixes, bool replace, const OutputRule& rule);
+
 class ResultPlace {
  public:
-  /// Makes the working folder, empty; an earlier record and what it names count no longer. The folder is
-  /// locked: a second program that claims the place at the same time gets an error. Errors: io.
-  static Result<ResultPlace> claim(const std::string& out, const std::string& relative);
+  /// Makes the working folder. It is locked: a second program that claims the place at the same time gets an
+  /// error. Errors: as check_place; io.
+  static Result<ResultPlace> claim(const std::string& out, const std::string& relative,
+                                   const std::vector<std::string>& suffixes, bool replace,
+                                   const OutputRule& rule);
   /// Removes the working folder and what is in it.
   ~ResultPlace();
   ResultPlace(ResultPlace&& other) noexcept;
@@ -29,16 +39,22 @@ class ResultPlace {
 
   /// Where an output is to be written. `suffix` is added to the name of the recording.
   std::string working(const std::string& suffix) const;
-  /// Moves the outputs into place, and the record last. Errors: io; then the recording is unfinished.
-  Result<void> complete(const std::vector<std::string>& suffixes, const std::string& record);
+  /// Moves the outputs into place, and the record last. Errors: as check_place; io; then the recording is
+  /// unfinished.
+  Result<void> complete(const std::string& record);
 
  private:
-  ResultPlace(std::string place, std::string folder, int lock)
-      : place_(std::move(place)), folder_(std::move(folder)), lock_(lock) {}
+  ResultPlace() = default;
 
-  std::string place_;   // <out>/<relative>
-  std::string folder_;  // the working folder
-  int lock_;            // file descriptor of the folder; -1: moved from
+  std::string place_;                  // <out>/<relative>
+  std::vector<std::string> suffixes_;  // without slashes
+  bool replace_ = false;
+  OutputRule rule_;
+  std::string folder_;                  // <place>.tmp
+  std::vector<ScratchFolder> working_;  // one within the folder, or none: moved from
+  TemporaryName folder_name_;
+  TemporaryName mark_name_;
+  int lock_ = -1;  // file descriptor of the folder; -1: moved from
 };
 
 /// Whether a relative path can be mirrored: no part of it may look unfinished.

@@ -112,6 +112,18 @@ std::vector<std::string> suffixes_of(const Settings& settings) {
   return suffixes;
 }
 
+std::vector<std::string> result_suffixes(const Settings& settings) {
+  const std::string name = "recording";
+  std::vector<std::string> all = suffixes_of(settings);
+  for (const std::string& suffix : suffixes_of(settings)) {
+    const auto kind = output_kind(name + suffix);
+    if (!kind) continue;  // of sparse events
+    for (const std::string& file : companions_of(name + suffix, *kind))
+      all.push_back(file.substr(name.size()));
+  }
+  return all;
+}
+
 void lay_over(Settings& settings, const Settings& more) {
   const auto is_instant = [&](std::string_view name) { return more.contains(std::string(name)); };
   if (std::any_of(kInstants.begin(), kInstants.end(), is_instant)) {
@@ -134,6 +146,7 @@ Result<std::unique_ptr<Options>> parse_settings(const Settings& settings) {
   add_allow_empty(app, options->stream.allow_empty);
   add_product_options(app, options->products, "");
   app.add_option("--output", options->outputs);
+  app.remove_option(app.get_option("--overwrite"));  // of a command line, not of a recipe
   app.add_flag("--skip", options->skip);
 
   std::vector<std::string> arguments;

@@ -31,6 +31,8 @@ struct Options {
 
 /// What is added to the name of the recording by all that is written but the record.
 std::vector<std::string> suffixes_of(const Settings& settings);
+/// The same, with the files that come beside some of them.
+std::vector<std::string> result_suffixes(const Settings& settings);
 
 /// Errors: illegal_parameter, naming the setting.
 Result<std::unique_ptr<Options>> parse_settings(const Settings& settings);

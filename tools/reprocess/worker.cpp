@@ -67,18 +67,6 @@ OutputKind kind_of(const std::string& suffix) {
   return *output_kind("recording" + suffix);  // parse_settings has let it pass
 }
 
-// The files of the outputs: beside an array comes the list of its frames.
-std::vector<std::string> files_of(const std::vector<std::string>& outputs) {
-  std::vector<std::string> files = outputs;
-  for (const std::string& suffix : outputs) {
-    if (suffix.ends_with(".npy")) {
-      files.push_back(
-          std::filesystem::path("recording" + suffix).replace_extension(".csv").string().substr(9));
-    }
-  }
-  return files;
-}
-
 using Products = std::vector<std::unique_ptr<FrameProduct>>;
 
 // What is written of each frame. Outputs that show the same share a product.
@@ -94,12 +82,12 @@ Result<Products> make_products(const Options& options, const ResultPlace& place,
     if (kind == OutputKind::hdf5 && !options.products.encoding.empty()) {
       const auto encoding = parse_encoding(options.products.encoding);
       if (!encoding) return encoding.error();
-      auto tensors = tensor_product(representation, *encoding, place.working(suffix));
+      auto tensors = tensor_product(representation, *encoding, place.working(suffix), OutputRule());
       if (!tensors) return tensors.error();
       products.push_back(*std::move(tensors));
       continue;
     }
-    auto writer = make_frame_writer(place.working(suffix), kind, options.frames.shown_fps());
+    auto writer = make_frame_writer(place.working(suffix), kind, options.frames.shown_fps(), OutputRule());
     if (!writer) return writer.error();
     auto& group = options.products.floats && is_array(kind) ? float_pictures : pictures;
     group.push_back(std::make_unique<WriteBehind>(*std::move(writer)));
@@ -111,7 +99,8 @@ Result<Products> make_products(const Options& options, const ResultPlace& place,
     products.push_back(float_product(representation, std::make_unique<Several>(std::move(float_pictures))));
   }
   if (!options.products.sparse.empty()) {
-    auto writer = make_event_list_writer(place.working(options.products.sparse), representation.sensor());
+    auto writer =
+        make_event_list_writer(place.working(options.products.sparse), representation.sensor(), OutputRule());
     if (!writer) return writer.error();
     products.push_back(event_product(representation, *std::move(writer)));
   }
@@ -123,7 +112,8 @@ Result<void> write_final_pictures(const Options& options, const ResultPlace& pla
   const Frame frame{computed.last_time, computed.report.events};
   for (const std::string& suffix : options.outputs) {
     if (kind_of(suffix) != OutputKind::image) continue;
-    auto writer = make_frame_writer(place.working(suffix), OutputKind::image, options.frames.shown_fps());
+    auto writer =
+        make_frame_writer(place.working(suffix), OutputKind::image, options.frames.shown_fps(), OutputRule());
     if (!writer) return writer.error();
     if (auto r = (*writer)->write(frame, as_picture(computed.image)); !r) return r;
     if (auto r = (*writer)->finish(); !r) return r;
@@ -220,7 +210,11 @@ Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter
     skipped.message = "not a recording";
     return skipped;
   }
-  auto place = ResultPlace::claim(workplace.out, job.relative);
+  const std::vector<std::string> outputs = suffixes_of(job.settings);
+  OutputRule rule = workplace.rule;
+  rule.add_input(job.path);
+  auto place = ResultPlace::claim(workplace.out, job.relative, result_suffixes(job.settings),
+                                  workplace.replaces(), rule);
   if (!place) return place.error();
   const std::string times = times_digest(job, **options);
   const auto computed = compute(
@@ -235,13 +229,12 @@ Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter
   if (!identity) return identity.error();
   if (auto r = write_final_pictures(**options, *place, *computed); !r) return r.error();
 
-  const std::vector<std::string> outputs = suffixes_of(job.settings);
   const Record record{*std::move(identity),    times,           job.settings, computed->digests, outputs,
                       computed->report.events, computed->frames};
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   const std::string content =
       record_text(record, job, *computed, workplace.machine.name(), {started, seconds()});
-  if (auto r = place->complete(files_of(outputs), content); !r) return r.error();
+  if (auto r = place->complete(content); !r) return r.error();
   Outcome done = outcome_of(job, Status::done);
   done.events = computed->report.events;
   done.frames = computed->frames;
@@ -296,6 +289,10 @@ Outcome do_task(const Task& task, const Workplace& workplace, Meter& meter) {
 bool has_record(const std::string& out, const Job& job) {
   std::error_code ignored;
   return fs::exists(record_path(out, job), ignored);
+}
+
+bool is_record(const std::string& out, const Job& job) {
+  return read_record(record_path(out, job)).ok();
 }
 
 }  // namespace scarf::tools::reprocess

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "io/output_files.h"
 #include "tools/reprocess/compute.h"
 #include "tools/reprocess/job.h"
 
@@ -12,6 +13,10 @@ struct Workplace {
   Machine machine;
   std::string out;
   bool resume = false;  ///< what is finished is kept
+  OutputRule rule;
+
+  /// Whether results of an earlier run may be replaced.
+  bool replaces() const { return resume || rule.overwrite(); }
 };
 
 /// Whatever happens becomes the outcome, exceptions included.
@@ -19,5 +24,7 @@ Outcome do_task(const Task& task, const Workplace& workplace, Meter& meter);
 
 /// Whether a record for the job is there, of whatever recipe.
 bool has_record(const std::string& out, const Job& job);
+/// Whether it is a record of scarf.
+bool is_record(const std::string& out, const Job& job);
 
 }  // namespace scarf::tools::reprocess

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/text.h"
-#include "io/atomic_file.h"
 #include "io/event_check.h"
 #include "io/event_tally.h"
 #include "io/hdf5/event_columns.h"
 #include "io/hdf5/growing_dataset.h"
+#include "io/output_files.h"
 #include "io/writers.h"
 
 namespace scarf {
@@ -23,13 +23,13 @@ constexpr int64_t kTimeRange = int64_t{1} << 32;  // of times relative to the fi
 
 class DsecWriter final : public EventSink {
  public:
-  DsecWriter(const std::string& path, SensorSize sensor)
-      : path_(path),
-        place_(path),
+  DsecWriter(OutputFile output, SensorSize sensor)
+      : path_(output.path()),
+        output_(std::move(output)),
         check_(sensor, {.format = "dsec", .t_min = -kMaxTime + 1, .t_end = kMaxTime}) {}
 
   Result<void> create(SensorSize sensor) {
-    auto file = hdf5::OutputFile::create(place_.name(), path_);
+    auto file = hdf5::WrittenFile::create(output_.name(), path_);
     if (!file) return file.error();
     file_ = *std::move(file);
     auto columns = hdf5::EventColumns<uint32_t>::create(file_, sensor);
@@ -71,7 +71,7 @@ class DsecWriter final : public EventSink {
     if (auto r = index_.close(); !r) return r;
     if (auto r = columns_.close(); !r) return r;
     if (auto r = file_.close(); !r) return r;
-    return place_.put_in_place();
+    return output_.publish();
   }
 
  private:
@@ -104,9 +104,9 @@ class DsecWriter final : public EventSink {
   }
 
   const std::string path_;
-  AtomicFile place_;
+  OutputFile output_;
   EventCheck check_;
-  hdf5::OutputFile file_;
+  hdf5::WrittenFile file_;
   hdf5::EventColumns<uint32_t> columns_;
   GrowingDataset index_;
   std::optional<int64_t> origin_;  // of the first event
@@ -118,10 +118,13 @@ class DsecWriter final : public EventSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EventSink>> create_dsec(const std::string& path, SensorSize sensor) {
+Result<std::unique_ptr<EventSink>> create_dsec(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) {
   if (path == "-")
     return Error{ErrorCode::illegal_parameter, "HDF5 cannot be written to standard output; name a file"};
-  auto writer = std::make_unique<DsecWriter>(path, sensor);
+  auto output = OutputFile::create(path, rule);
+  if (!output) return output.error();
+  auto writer = std::make_unique<DsecWriter>(*std::move(output), sensor);
   if (auto r = writer->create(sensor); !r) return r.error();
   return std::unique_ptr<EventSink>(std::move(writer));
 }

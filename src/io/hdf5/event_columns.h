@@ -17,7 +17,7 @@ template <class Time>
 class EventColumns {
  public:
   /// Errors: io.
-  static Result<EventColumns> create(const OutputFile& file, SensorSize sensor) {
+  static Result<EventColumns> create(const WrittenFile& file, SensorSize sensor) {
     EventColumns made;
     for (const auto& r :
          {column<uint16_t>(file, "events/x", made.x_), column<uint16_t>(file, "events/y", made.y_),
@@ -49,7 +49,7 @@ class EventColumns {
   static constexpr size_t kRowsPerChunk = 64 * 1024;
 
   template <class T>
-  static Result<void> column(const OutputFile& file, const char* path, GrowingDataset& made) {
+  static Result<void> column(const WrittenFile& file, const char* path, GrowingDataset& made) {
     auto dataset = GrowingDataset::create<T>(file, path, {}, kRowsPerChunk);
     if (!dataset) return dataset.error();
     made = *std::move(dataset);

@@ -13,7 +13,7 @@ constexpr unsigned kDeflateLevel = 1;
 
 }  // namespace
 
-Result<GrowingDataset> GrowingDataset::create(const OutputFile& file, const std::string& path, hid_t type,
+Result<GrowingDataset> GrowingDataset::create(const WrittenFile& file, const std::string& path, hid_t type,
                                               std::span<const size_t> row_shape, size_t rows_per_chunk) {
   const Turn turn;
   GrowingDataset made;
@@ -28,7 +28,9 @@ Result<GrowingDataset> GrowingDataset::create(const OutputFile& file, const std:
   const Handle space(H5Screate_simple(static_cast<int>(limit.size()), made.shape_.data(), limit.data()));
   const Handle links(H5Pcreate(H5P_LINK_CREATE));
   const Handle layout(H5Pcreate(H5P_DATASET_CREATE));
+  // Without the time of its making: the same events make the same file.
   if (H5Pset_create_intermediate_group(links.id(), 1) >= 0 &&
+      H5Pset_obj_track_times(layout.id(), false) >= 0 &&
       H5Pset_chunk(layout.id(), static_cast<int>(chunk.size()), chunk.data()) >= 0 &&
       H5Pset_shuffle(layout.id()) >= 0 && H5Pset_deflate(layout.id(), kDeflateLevel) >= 0) {
     made.dataset_ =

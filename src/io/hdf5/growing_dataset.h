@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/hdf5/output_file.h"
+#include "io/hdf5/written_file.h"
 #include "scarf/result.h"
 
 namespace scarf::hdf5 {
@@ -48,7 +48,7 @@ class GrowingDataset {
   /// libhdf5 reads. `row_shape`: dimensions of a row, none for a column of numbers. Groups on the way to
   /// `path` are made. Errors: io.
   template <class T>
-  static Result<GrowingDataset> create(const OutputFile& file, const std::string& path,
+  static Result<GrowingDataset> create(const WrittenFile& file, const std::string& path,
                                        std::span<const size_t> row_shape, size_t rows_per_chunk) {
     return create(file, path, native_type<T>(), row_shape, rows_per_chunk);
   }
@@ -63,7 +63,7 @@ class GrowingDataset {
   Result<void> close();
 
  private:
-  static Result<GrowingDataset> create(const OutputFile& file, const std::string& path, hid_t type,
+  static Result<GrowingDataset> create(const WrittenFile& file, const std::string& path, hid_t type,
                                        std::span<const size_t> row_shape, size_t rows_per_chunk);
   Result<void> append(hid_t type, const void* values, size_t count);
 
@@ -75,11 +75,13 @@ class GrowingDataset {
 
 /// Writes one number. Errors: io.
 template <class T>
-Result<void> write_scalar(const OutputFile& file, const std::string& path, T value) {
+Result<void> write_scalar(const WrittenFile& file, const std::string& path, T value) {
   const Turn turn;
   const Handle space(H5Screate(H5S_SCALAR));
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(creation.id(), false);  // see GrowingDataset::create
   const Handle dataset(H5Dcreate2(file.id(), path.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT));
+                                  creation.id(), H5P_DEFAULT));
   if (!dataset || H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0) {
     return file.bytes()->error(path);
   }

@@ -14,7 +14,7 @@ constexpr SensorSize kSensor{1280, 720};
 
 // The error of writing, empty if there was none.
 std::string written(const std::string& path, std::span<const Event> events, size_t batch) {
-  auto sink = create_events(path, "dsec", kSensor);
+  auto sink = create_events(path, "dsec", kSensor, {.overwrite = true});
   if (!sink) return sink.error().message;
   for (; !events.empty(); events = events.subspan(std::min(batch, events.size()))) {
     if (const auto r = (*sink)->write(events.first(std::min(batch, events.size()))); !r)

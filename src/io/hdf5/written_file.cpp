@@ -1,10 +1,10 @@
-#include "io/hdf5/output_file.h"
+#include "io/hdf5/written_file.h"
 
 namespace scarf::hdf5 {
 
-Result<OutputFile> OutputFile::create(const std::string& name, const std::string& shown) {
+Result<WrittenFile> WrittenFile::create(const std::string& name, const std::string& shown) {
   const Turn turn;
-  OutputFile made;
+  WrittenFile made;
   auto bytes = DriverFile::create(name, shown);
   if (!bytes) return bytes.error();
   made.bytes_ = *std::move(bytes);
@@ -14,7 +14,7 @@ Result<OutputFile> OutputFile::create(const std::string& name, const std::string
   return made;
 }
 
-Result<void> OutputFile::close() {
+Result<void> WrittenFile::close() {
   const Turn turn;
   if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0 || !file_.close())
     return bytes_->error("it cannot be closed");

@@ -10,12 +10,12 @@
 
 namespace scarf::hdf5 {
 
-class OutputFile {
+class WrittenFile {
  public:
-  OutputFile() = default;
+  WrittenFile() = default;
   /// Creates or replaces the file `name`, which every libhdf5 since 1.8 reads and which messages call
   /// `shown`. Errors: io.
-  static Result<OutputFile> create(const std::string& name, const std::string& shown);
+  static Result<WrittenFile> create(const std::string& name, const std::string& shown);
 
   explicit operator bool() const { return static_cast<bool>(file_); }
   hid_t id() const { return file_.id(); }
