@@ -6,8 +6,9 @@
 layout(local_size_x = kLinearGroup) in;
 #include "events.glsl"
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 1) uniform usamplerBuffer last_event;
+WORDS_VIEW(1, LastEventView, last_event)
 layout(std430, binding = 2) buffer Ages { uint ages[]; };
 layout(push_constant) uniform Push { SurfacePush pushed; };
 SurfacePush push = pushed;
@@ -26,7 +27,7 @@ void main() {
   for (uint row = y - min(y, push.reach); row <= bottom; ++row) {
     for (uint column = left; column <= right; ++column) {
       const uint pixel = row * push.width + column;
-      if (texelFetch(last_event, int(pixel)).x < push.stamp + e) atomicAdd(ages[pixel], 1);
+      if (VIEW_WORD(last_event, pixel) < push.stamp + e) atomicAdd(ages[pixel], 1);
     }
   }
 }

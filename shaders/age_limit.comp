@@ -13,5 +13,5 @@ AgeLimitPush push = pushed;
 
 void main() {
   const uint pixel = linear_index();
-  if (pixel < push.pixels) limited[pixel] = (ages[pixel] & kAgeNever) != 0 ? push.never : min(ages[pixel], 65534);
+  if (pixel < push.pixels) limited[pixel] = ages[pixel] >= kAgeNever ? push.never : min(ages[pixel], 65534);
 }

@@ -5,8 +5,9 @@
 layout(local_size_x = kLinearGroup) in;
 #include "events.glsl"
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 1) uniform usamplerBuffer last_event;
+WORDS_VIEW(1, LastEventView, last_event)
 layout(std430, binding = 2) writeonly buffer Ages { uint ages[]; };
 layout(push_constant) uniform Push { SurfacePush pushed; };
 SurfacePush push = pushed;
@@ -15,5 +16,5 @@ void main() {
   const uint e = linear_index();
   if (e >= push.events) return;
   const uint pixel = pixel_of(event_at(push.first_event + e).z, push.width, push.height);
-  if (pixel != kOutside && texelFetch(last_event, int(pixel)).x == push.stamp + e) ages[pixel] = 0;
+  if (pixel != kOutside && VIEW_WORD(last_event, pixel) == push.stamp + e) ages[pixel] = 0;
 }

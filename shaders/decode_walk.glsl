@@ -34,7 +34,8 @@ uint gaps = 0;  // met so far
 
 void set_time_high(inout DecodeState s, uint high) {
   if (high == s.time_high) return;
-  if (kFormat == kDecodeEvt3 && ((high - s.time_high) & 0xFFF) != 1) ++gaps;
+  const uint next = s.time_high + 1 & 0xFFF;
+  if (kFormat == kDecodeEvt3 && high != next) ++gaps;
   add_loops(s, is_wrap(s.time_high, high));
   s.time_high = high;
   s.time_low = 0;
@@ -48,7 +49,7 @@ Burst burst_of(DecodeState s, uint mask, uint x, uint p) {
 Burst next_vector(inout DecodeState s, uint mask, uint length) {
   const uint x = s.base_x;
   s.base_x = min(x + length, kDecodeLastBase);
-  return burst_of(s, s.other != 0 ? 0 : mask, x, s.base_p);
+  return burst_of(s, mask * (1 - s.other), x, s.base_p);
 }
 
 // Bit n: type n is defined, that is 0, 1, 8, A and D to F.
@@ -64,7 +65,7 @@ Burst next_word(inout DecodeState s, uint word, inout uint unknown) {
       return burst_of(s, 1, word >> 11 & 0x7FF, type);
     }
     if (type == 0x8) set_time_high(s, word & 0x0FFFFFFF);
-    if ((kKnownEvt2 >> type & 1) == 0) ++unknown;
+    unknown += 1 - bit_of(kKnownEvt2, type);
     return Burst(0, 0, 0, 0);
   }
   const uint payload = word & 0xFFF;

@@ -22,7 +22,7 @@ uint float_bits(int64_t number, int scale) {
     const uint64_t rest = size & (uint64_t(1) << dropped) - 1;
     const uint64_t half_unit = uint64_t(1) << dropped - 1;
     size >>= dropped;
-    if (rest > half_unit || (rest == half_unit && (size & 1) == 1)) ++size;
+    size += uint(rest > half_unit) | uint(rest == half_unit) & uint(size) & 1;
     if (size >> 24 != 0) {  // rounded up to the next power of two
       size >>= 1;
       ++exponent;

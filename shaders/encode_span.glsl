@@ -17,6 +17,5 @@ uint rounded_weight(uint64_t numerator, uint64_t denominator) {
   const uint64_t scaled = numerator << kEncodeWeightBits;
   const uint64_t quotient = scaled / denominator;
   const uint64_t twice = 2 * (scaled - quotient * denominator);
-  const bool up = twice > denominator || (twice == denominator && (quotient & 1) == 1);
-  return uint(quotient) + (up ? 1 : 0);
+  return uint(quotient) + (uint(twice > denominator) | uint(twice == denominator) & uint(quotient) & 1);
 }

@@ -1,6 +1,8 @@
 // A buffer of events as they are in memory, and where they fall on the sensor.
-layout(binding = 0) uniform usamplerBuffer events;  // t low, t high, x | y << 16, p
-uvec4 event_at(uint index) { return texelFetch(events, int(index)); }
+#include "views.glsl"
+
+VECTORS_VIEW(0, EventsView, events)  // t low, t high, x | y << 16, p
+uvec4 event_at(uint index) { return VIEW_VECTOR(events, index); }
 
 // The pixel of an event in row-major order; kOutside if it is not on the sensor.
 const uint kOutside = 0xFFFFFFFFu;

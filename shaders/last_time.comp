@@ -7,8 +7,9 @@
 layout(local_size_x = kLinearGroup) in;
 #include "events.glsl"
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 1) uniform usamplerBuffer last_event;
+WORDS_VIEW(1, LastEventView, last_event)
 layout(std430, binding = 2) writeonly buffer LastTime { int64_t last_time[]; };  // relative to the first event
 layout(push_constant) uniform Push { SurfacePush pushed; };
 SurfacePush push = pushed;
@@ -21,6 +22,6 @@ void main() {
   if (pixel == kOutside) return;
   const uint plane = push.planes == 2 ? event.w & 1 : 0;
   const uint place = plane * push.width * push.height + pixel;
-  if (texelFetch(last_event, int(place)).x != push.stamp + e) return;
+  if (VIEW_WORD(last_event, place) != push.stamp + e) return;
   last_time[place] = packInt2x32(ivec2(event.xy)) - packInt2x32(ivec2(push.t_first_low, push.t_first_high));
 }

@@ -1,15 +1,16 @@
 // What the stages of the replay share. A group of events, x | y << 16 each and all on the sensor, is cut into chunks;
 // chunks[push.chunks].begin is the number of events. Include it after the local size is declared.
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 0) uniform usamplerBuffer events;
-layout(binding = 1) uniform usamplerBuffer chunks;  // two words each, see ReplayChunk
+WORDS_VIEW(0, EventsView, events)
+WORDS_VIEW(1, ChunksView, chunks)  // two words each, see ReplayChunk
 layout(push_constant) uniform Push { ReplayPush pushed; };
 ReplayPush push = pushed;
 
-uint event_at(uint e) { return texelFetch(events, int(e)).x; }
-uint chunk_begin(uint chunk) { return texelFetch(chunks, int(2 * chunk)).x; }
-uint chunk_interval(uint chunk) { return texelFetch(chunks, int(2 * chunk + 1)).x; }
+uint event_at(uint e) { return VIEW_WORD(events, e); }
+uint chunk_begin(uint chunk) { return VIEW_WORD(chunks, 2 * chunk); }
+uint chunk_interval(uint chunk) { return VIEW_WORD(chunks, 2 * chunk + 1); }
 
 // The patch in whose cell an event is: column | row << 16; kReplayNone if there is none.
 uint owner_of(uint xy) {

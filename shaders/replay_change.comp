@@ -7,8 +7,9 @@
 layout(local_size_x = kLinearGroup) in;
 #include "replay.glsl"
 #include "replay_changes.glsl"
+#include "views.glsl"
 
-layout(binding = 7) uniform usamplerBuffer ranks;
+WORDS_VIEW(7, RanksView, ranks)
 
 // Each slot is written at most once: the ranks that outlast the group are the last ones of the patch, and distinct mod
 // capacity. What it held, if anything, has been dropped by replay_carry.comp.
@@ -32,7 +33,7 @@ void main() {
     const uint owner = owner_of(xy);
     if (owner == kReplayNone) continue;
     const uint patch_id = (owner >> 16) * push.grid_x + (owner & 0xFFFF);
-    const uint rank = texelFetch(ranks, int(e)).x;
+    const uint rank = VIEW_WORD(ranks, e);
     const uint gone_in = chunk_beyond(patch_id, chunk, int(rank + push.capacity));
     const uint gone = gone_in < push.chunks ? chunk_interval(gone_in) : kReplayNone;
     if (gone == shown) continue;  // no frame sees it

@@ -1,13 +1,15 @@
 // When events cease to be shown, and what that changes. Include it after replay.glsl.
-layout(binding = 2) uniform usamplerBuffer table;                     // per chunk and patch: hits by its end
-layout(binding = 3) uniform usamplerBuffer heads;                     // per patch two: before and behind the group
+#include "views.glsl"
+
+WORDS_VIEW(2, TableView, table)  // per chunk and patch: hits by its end
+WORDS_VIEW(3, HeadsView, heads)  // per patch two: before and behind the group
 layout(std430, binding = 4) buffer Changes { uint changes[]; };        // per interval: counts of pixels, packed
 layout(std430, binding = 5) buffer Kept { uint kept[]; };              // per patch: one bit per slot
 layout(std430, binding = 6) buffer Pixels { uint pixels[]; };          // per patch and slot: valid if kept
 
-uint hits_by(uint chunk, uint patch_id) { return texelFetch(table, int(chunk * push.stride + patch_id)).x; }
-uint head_before(uint patch_id) { return texelFetch(heads, int(2 * patch_id)).x; }
-uint head_behind(uint patch_id) { return texelFetch(heads, int(2 * patch_id + 1)).x; }
+uint hits_by(uint chunk, uint patch_id) { return VIEW_WORD(table, chunk * push.stride + patch_id); }
+uint head_before(uint patch_id) { return VIEW_WORD(heads, 2 * patch_id); }
+uint head_behind(uint patch_id) { return VIEW_WORD(heads, 2 * patch_id + 1); }
 
 // The first chunk from `first` on by whose end the patch has had more than `hits` hits of this group; push.chunks if
 // there is none. The entries of a patch do not fall from chunk to chunk.

@@ -1,11 +1,12 @@
 // Four pixels through all frames of a group. Include it after the local size is declared.
 #include "invocation.glsl"
+#include "views.glsl"
 
 layout(constant_id = 0) const uint kCountBits = 8;  // of a pixel's count: 8, or 16
 
-layout(binding = 0) uniform usamplerBuffer changes;            // per interval
+WORDS_VIEW(0, ChangesView, changes)  // per interval
 layout(std430, binding = 1) buffer Counts { uint counts[]; };  // before the group; then behind it
-layout(binding = 2) uniform usamplerBuffer levels;             // brightness of 0 .. capacity
+WORDS_VIEW(2, LevelsView, levels)  // brightness of 0 .. capacity
 layout(push_constant) uniform Push { ReplayFramesPush pushed; };
 ReplayFramesPush push = pushed;
 
@@ -23,10 +24,10 @@ void write_counts(uint index, uvec2 packed) {
 }
 uvec2 changes_in(uint interval, uint index) {
   const int word = int(interval * push.invocations + index);
-  if (kCountBits == 8) return uvec2(texelFetch(changes, word).x, 0);
-  return uvec2(texelFetch(changes, 2 * word).x, texelFetch(changes, 2 * word + 1).x);
+  if (kCountBits == 8) return uvec2(VIEW_WORD(changes, word), 0);
+  return uvec2(VIEW_WORD(changes, 2 * word), VIEW_WORD(changes, 2 * word + 1));
 }
-uint level_of(uint count) { return texelFetch(levels, int(count)).x; }
+uint level_of(uint count) { return VIEW_WORD(levels, count); }
 
 uvec4 unpack_counts(uvec2 packed) {
   return kCountBits == 8 ? packed.xxxx >> uvec4(0, 8, 16, 24) & 0xFF : packed.xxyy >> uvec4(0, 16, 0, 16) & 0xFFFF;

@@ -1,5 +1,7 @@
 // The patches that hold an event: first | last << 16 of the columns and of the rows.
-layout(binding = 3) uniform usamplerBuffer ranges;
+#include "views.glsl"
 
-uint columns_of(uint xy) { return texelFetch(ranges, int(xy & 0xFFFF)).x; }
-uint rows_of(uint xy) { return texelFetch(ranges, int(push.width + 1 + (xy >> 16))).x; }
+WORDS_VIEW(3, RangesView, ranges)
+
+uint columns_of(uint xy) { return VIEW_WORD(ranges, xy & 0xFFFF); }
+uint rows_of(uint xy) { return VIEW_WORD(ranges, push.width + 1 + (xy >> 16)); }

@@ -18,8 +18,9 @@ const uint kTeamLanes = kTeamX * kTeamY;
 #include "replay.glsl"
 #include "replay_ranges.glsl"
 #include "first_owned.glsl"
+#include "views.glsl"
 
-layout(binding = 2, r32ui) uniform uimageBuffer table;  // per chunk and patch
+IMAGE_VIEW(2, TableView, table)  // per chunk and patch
 layout(std430, binding = 4) writeonly buffer Ranks { uint ranks[]; };
 
 void main() {
@@ -51,8 +52,8 @@ void main() {
         for (uint c = 0; c < kLaneColumns; ++c) {
           const uint i = first_i + c * kTeamX;
           const uint entry = i <= columns >> 16 && j <= rows >> 16 ? base + j * push.grid_x + i : waste;
-          const uint hits = imageLoad(table, int(entry)).x;
-          imageStore(table, int(entry), uvec4(hits + 1));
+          const uint hits = IMAGE_WORD(table, entry);
+          SET_IMAGE_WORD(table, entry, hits + 1);
           if (wanted == (i | j << 16)) found = hits;
         }
       }

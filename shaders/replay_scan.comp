@@ -6,8 +6,9 @@
 #include "replay_layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "replay.glsl"
+#include "views.glsl"
 
-layout(binding = 2, r32ui) uniform uimageBuffer table;  // per chunk and patch
+IMAGE_VIEW(2, TableView, table)  // per chunk and patch
 layout(std430, binding = 3) buffer Heads { uvec2 heads[]; };
 
 void main() {
@@ -17,8 +18,8 @@ void main() {
   // Trips: push.chunks, see make_replay_plan().
   for (uint chunk = 0; chunk < push.chunks; ++chunk) {
     const int entry = int(chunk * push.stride + patch_id);
-    const uint hits = imageLoad(table, entry).x;
-    imageStore(table, entry, uvec4(sum));
+    const uint hits = IMAGE_WORD(table, entry);
+    SET_IMAGE_WORD(table, entry, sum);
     sum += hits;
   }
   const uint head = heads[patch_id].y;

@@ -7,8 +7,9 @@
 #include "layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 0, r32ui) uniform uimageBuffer table;
+IMAGE_VIEW(0, TableView, table)
 layout(push_constant) uniform Push { SumPush pushed; };
 SumPush push = pushed;
 
@@ -20,7 +21,7 @@ void main() {
   // Trips: classes or patches of one axis, at most 49,152.
   for (uint i = 0; i < push.entries; ++i) {
     const int entry = int(begin + i * push.entry_stride);
-    sum += imageLoad(table, entry).x;
-    imageStore(table, entry, uvec4(sum));
+    sum += IMAGE_WORD(table, entry);
+    SET_IMAGE_WORD(table, entry, sum);
   }
 }

@@ -23,8 +23,9 @@ const uint kTeamLanes = kTeamX * kTeamY;
 const uint kBlock = gl_WorkGroupSize.x < 32 ? gl_WorkGroupSize.x : 32;
 
 #include "events.glsl"
+#include "views.glsl"
 
-layout(binding = 1, r32ui) coherent uniform uimageBuffer heads;  // see ring_head.glsl, append_hit()
+COHERENT_IMAGE_VIEW(1, HeadsView, heads)  // see ring_head.glsl, append_hit()
 layout(std430, binding = 2) writeonly buffer Slots { uint64_t slots[]; };
 layout(std430, binding = 3) writeonly buffer Positions { uint8_t positions[]; };  // per slot; see kNotShown
 layout(push_constant) uniform Push { AppendPush pushed; };
@@ -93,7 +94,7 @@ Walked walk(uint index, Part part) {
 // A team of lanes takes one event; where a subgroup has several teams, they take consecutive events in the same step.
 // Lanes with the same number in their teams own the same patches. Those that store in the same one, as they can see, take
 // consecutive slots, and the last of them moves the head. That the next step finds the head moved counts on lanes that go
-// in step: see make_append_plan() in src/scarf/plan.cpp.
+// in step: see Quirks::lanes_in_step in src/vulkan/quirks.h.
 void append_hit(uint lane, uint part_row, uint i, uint k, Walked e) {
   const bool held = i <= e.columns >> 16 && k <= e.rows >> 16;
   const uint j = (k << push.parts_shift) + part_row;
@@ -111,11 +112,11 @@ void append_hit(uint lane, uint part_row, uint i, uint k, Walked e) {
     before += team >= n && earlier == patch_id ? 1 : 0;
     last = last && !(team + n < kTeams && later == patch_id);
   }
-  const uint head = imageLoad(heads, int(held ? patch_id : unused_head)).x;
+  const uint head = IMAGE_WORD(heads, held ? patch_id : unused_head);
   const uint next = head_slot(head) + before;
   const uint slot = next < push.capacity ? next : next - push.capacity;
   const uint lap = next + 1 < push.capacity ? 0 : kHeadLap - push.capacity;
-  imageStore(heads, int(last ? patch_id : unused_head), uvec4(head + (before + 1 + lap)));
+  SET_IMAGE_WORD(heads, last ? patch_id : unused_head, head + (before + 1 + lap));
   const uvec2 word = slot_of(e, i, j);
   slots[held ? patch_id * push.capacity + slot : push.unused_slot + unused] = packUint2x32(word);
   if (kPaints) {
@@ -139,6 +140,7 @@ void append_event(uint lane, uint part_row, Walked e) {
 }
 
 void main() {
+  if (linear_workgroup() >= parts() * push.bands) return;  // beyond the last: no part, and no unused entries
   const Part part = this_part();
   const uint lane = gl_SubgroupInvocationID;
   uint block = 0;

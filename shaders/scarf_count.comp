@@ -7,11 +7,12 @@
 layout(local_size_x = kLinearGroup) in;
 #include "batch.glsl"
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 1) uniform usamplerBuffer classes;            // per column, then row; 0: no patch
+WORDS_VIEW(1, ClassesView, classes)  // per column, then row; 0: no patch
 layout(std430, binding = 2) buffer Counts { uint counts[]; };  // per chunk, row class, column class
 
-uint class_at(uint entry) { return texelFetch(classes, int(entry)).x; }
+uint class_at(uint entry) { return VIEW_WORD(classes, entry); }
 
 void main() {
   const uint e = linear_index();

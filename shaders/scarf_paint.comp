@@ -10,8 +10,9 @@
 #include "layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 0) uniform usamplerBuffer positions;  // 16 slots; see kNotShown
+VECTORS_VIEW(0, PositionsView, positions)  // 16 slots; see kNotShown
 layout(std430, binding = 1) readonly buffer Heads { uint heads[]; };           // see ring_head.glsl
 layout(std430, binding = 2) buffer PaintedHeads { uint painted_heads[]; };  // when the cells were last painted
 layout(std430, binding = 3) writeonly buffer Picture { uint8_t picture[]; };   // and bytes that nobody reads
@@ -30,7 +31,7 @@ void count(uint patch_id) {
   for (uint w = 0; w < push.row_words * push.cell_y; ++w) counters[w] = 0;
   uint group = 0;
   do {
-    const uvec4 words = texelFetch(positions, int(patch_id * push.groups + group));
+    const uvec4 words = VIEW_VECTOR(positions, patch_id * push.groups + group);
     uvec4 left = shown_in(words);
     do {
       // The next position in any of the four words.

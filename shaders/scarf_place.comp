@@ -7,23 +7,15 @@
 #include "layout.h"
 #include "team.glsl"
 #include "scarf_hit.glsl"
+#include "views.glsl"
 
-layout(binding = 1) uniform usamplerBuffer ranges;                      // first | last << 16 per column, then row
-layout(std430, binding = 2) buffer TableBuffer { uint table[]; };       // cursors per chunk and patch
+WORDS_VIEW(1, RangesView, ranges)  // first | last << 16 per column, then row
+IMAGE_VIEW(2, TableView, table)    // cursors per chunk and patch
 layout(std430, binding = 3) writeonly buffer Slots { uint64_t slots[]; };
-layout(binding = 4) uniform usamplerBuffer alive;                       // see scarf_prune.comp; valid if push.prune
+WORDS_VIEW(4, AliveView, alive)  // see scarf_prune.comp; valid if push.prune
 layout(std430, binding = 5) writeonly buffer Positions { uint8_t positions[]; };  // per slot; see kNotShown
 
-layout(binding = 6, r32ui) uniform uimageBuffer table_image;            // the table, for drivers that read images faster
-
-layout(constant_id = 5) const bool kPaints = true;       // the paint stage needs positions
-layout(constant_id = 6) const bool kTableImage = false;  // only one of the two is used
-
-uint read_entry(uint entry) { return kTableImage ? imageLoad(table_image, int(entry)).x : table[entry]; }
-void write_entry(uint entry, uint cursor) {
-  if (kTableImage) imageStore(table_image, int(entry), uvec4(cursor));
-  else table[entry] = cursor;
-}
+layout(constant_id = 5) const bool kPaints = true;  // the paint stage needs positions
 
 // The hit of an event on patch (i, j), if that holds it. Nothing is masked: on CPU devices an unpredictable branch
 // costs more than a store, so what is not to happen goes to an entry and a slot of the lane's own. The entry always
@@ -32,11 +24,11 @@ void place_hit(Lane lane, uint i, uint j, Walked e) {
   const bool held = i <= e.columns >> 16 && j <= e.rows >> 16;
   const uint patch_id = j * push.grid_x + i;
   const uint entry = held ? lane.base + patch_id : push.unused_entry + lane.all;
-  const uint cursor = read_entry(entry);
+  const uint cursor = IMAGE_WORD(table, entry);
   const bool stored = cursor < kCursorSkipOne;
   const uint next_slot = cursor + 1 == push.capacity ? 0 : cursor + 1;
   const uint next_skip = cursor == kCursorDead ? kCursorDead : cursor - kCursorSkipOne;
-  write_entry(entry, stored ? next_slot : next_skip);
+  SET_IMAGE_WORD(table, entry, stored ? next_slot : next_skip);
   // Each slot is written at most once per batch: the surviving ranks of a patch are distinct mod capacity.
   const uint slot = stored ? patch_id * push.capacity + cursor : push.unused_slot + lane.all;
   const uvec2 word = slot_of(e, i, j);
@@ -63,11 +55,12 @@ void place_event(Lane lane, Walked e) {
   }
 }
 
-uint range_at(uint entry) { return texelFetch(ranges, int(entry)).x; }
+uint range_at(uint entry) { return VIEW_WORD(ranges, entry); }
 
 bool any_lane(bool value) { return subgroupBallot(value) != uvec4(0); }
 
 void main() {
+  if (is_beyond_teams()) return;  // a whole workgroup
   const Lane lane = this_lane();
   const bool has_chunk = lane.chunk < push.chunks;
   uint block = has_chunk ? lane.chunk * push.chunk_events : 0;
@@ -95,7 +88,7 @@ void main() {
       const uint row_last = min(last.y, band_last);
       bool walked = in_chunk && first.x <= last.x && row_begin <= row_last;
       if (push.prune != 0) {
-        walked = walked && texelFetch(alive, walked ? int(lane.base + first.y * push.grid_x + first.x) : 0).x != 0;
+        walked = walked && VIEW_WORD(alive, walked ? lane.base + first.y * push.grid_x + first.x : 0) != 0;
       }
       own.rows = row_begin | row_last << 16;
       left = team_ballot(lane, walked);

@@ -6,8 +6,9 @@
 #include "layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 0) uniform usamplerBuffer table;                           // cursors
+WORDS_VIEW(0, TableView, table)  // cursors
 layout(std430, binding = 1) writeonly buffer Alive { uint alive[]; };       // per chunk and first patch: 0 or 1
 layout(push_constant) uniform Push { PrunePush pushed; };
 PrunePush push = pushed;
@@ -25,7 +26,7 @@ void main() {
   // Trips: at most 128 rows of at most 128 patches and an entry each.
   for (uint b = j; b < j_end; ++b) {
     for (uint a = i; a < i_end; ++a) {
-      any_alive |= texelFetch(table, int(chunk_base + b * push.grid_x + a)).x != kCursorDead ? 1 : 0;
+      any_alive |= VIEW_WORD(table, chunk_base + b * push.grid_x + a) != kCursorDead ? 1 : 0;
     }
   }
   alive[entry] = any_alive;

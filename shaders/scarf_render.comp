@@ -22,14 +22,15 @@ void main() {
   const Patch p = patch_of(patch_id);
   const uint plane = push.width * push.height;
   const uint end = min(push.slot_end, filled_slots(heads[patch_id], laps[patch_id], push.capacity));
+  const uint plane_of_on = push.mode == kModeSeparate ? plane : 0;
+  const int less_for_off = push.mode == kModeDifference ? 2 : 0;
   // No other invocation counts in this patch's cell. Trips: at most kSlotsPerDispatch.
   for (uint s = push.slot_begin; s < end; ++s) {
     const uint word = slots[p.ring + s].x;
     if (!is_active(word)) continue;
     const uint x = uint(p.field_x) + packed_x(word);
     const uint y = uint(p.field_y) + packed_y(word);
-    const bool on = packed_polarity(word) == 1;
-    const uint pixel = y * push.width + x + (push.mode == kModeSeparate && on ? plane : 0);
-    counts[pixel] += push.mode == kModeDifference && !on ? -1 : 1;
+    const uint on = packed_polarity(word);
+    counts[y * push.width + x + on * plane_of_on] += 1 - int(1 - on) * less_for_off;
   }
 }

@@ -7,8 +7,9 @@
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
 #include "ring_head.glsl"
+#include "views.glsl"
 
-layout(binding = 0) uniform usamplerBuffer sums;                               // see running_sums.comp
+WORDS_VIEW(0, SumsView, sums)  // see running_sums.comp
 layout(std430, binding = 1) readonly buffer PatchClasses { uint classes[]; };  // before the first | last << 16, per
                                                                                // column of patches, then row
 layout(std430, binding = 2) buffer TableBuffer { uint table[]; };              // cursors per chunk and patch
@@ -18,7 +19,7 @@ layout(std430, binding = 5) buffer PaintedHeads { uint painted_heads[]; };     /
 layout(push_constant) uniform Push { ScanPush pushed; };
 ScanPush push = pushed;
 
-uint sum_at(uint entry) { return texelFetch(sums, int(entry)).x; }
+uint sum_at(uint entry) { return VIEW_WORD(sums, entry); }
 
 void main() {
   const uint patch_id = linear_index();

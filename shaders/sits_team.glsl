@@ -10,6 +10,8 @@
 //   ivec2 values_at(uint place)
 //   void set_values(uint place, ivec2 values)
 
+#include "bits.glsl"
+
 ivec2 lane_position() {
   return ivec2(gl_SubgroupInvocationID % kTeamX, gl_SubgroupInvocationID / kTeamX);
 }
@@ -22,7 +24,7 @@ int centre_value(ivec2 centre) {
   const uint owner = position.y * kTeamX + position.x;
   ivec2 values = ivec2(0);
   if (gl_SubgroupInvocationID == owner) values = values_at(place_of(pair));
-  return subgroupShuffle((centre.x & 1) == 0 ? values.x : values.y, owner);
+  return subgroupShuffle(blend(all_if(uint(centre.x), 1), values.y, values.x), owner);
 }
 
 struct Window {

@@ -36,18 +36,27 @@ struct Lane {
 // Where all rings together do not fit into a core's cache, a team stores in one band of rows of patches only, and other
 // teams walk the same chunk for the other bands. A core takes all chunks of its stripe for one band, then for the next,
 // and each core begins with another band.
+uint chunks_per_stripe() { return (push.chunks + push.stripes - 1) / push.stripes; }
+
 void take_work(uint team, inout Lane lane) {
-  const uint per_stripe = (push.chunks + push.stripes - 1) / push.stripes;
-  const uint stripe = team / (per_stripe * push.bands);  // workgroups may have teams beyond the last
+  const uint per_stripe = chunks_per_stripe();
+  const uint stripe = team / (per_stripe * push.bands);  // the last workgroup may have teams beyond the last
   const uint turn = team % (per_stripe * push.bands);
   lane.chunk = stripe < push.stripes ? turn % per_stripe * push.stripes + stripe : push.chunks;
   lane.band = (turn / per_stripe + stripe * push.bands / push.stripes) % push.bands;
 }
 
+uint teams_of_workgroup() { return gl_WorkGroupSize.x / kTeamLanes; }
+
+// Whether this workgroup has no team at all, and hence no unused entries and slots of its own.
+bool is_beyond_teams() {
+  return linear_workgroup() * teams_of_workgroup() >= push.stripes * push.bands * chunks_per_stripe();
+}
+
 Lane this_lane() {
   Lane lane;
   const uint invocation = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
-  const uint team = linear_workgroup() * (gl_WorkGroupSize.x / kTeamLanes) + invocation / kTeamLanes;
+  const uint team = linear_workgroup() * teams_of_workgroup() + invocation / kTeamLanes;
   take_work(team, lane);
   lane.index = gl_SubgroupInvocationID % kTeamLanes;
   lane.team = gl_SubgroupInvocationID - lane.index;

@@ -5,9 +5,10 @@
 #include "layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 0) uniform usamplerBuffer numbers;
-layout(binding = 1) uniform usamplerBuffer levels;
+WORDS_VIEW(0, NumbersView, numbers)
+WORDS_VIEW(1, LevelsView, levels)
 layout(std430, binding = 2) writeonly buffer Picture { uint picture[]; };
 layout(push_constant) uniform Push { TonePush pushed; };
 TonePush push = pushed;
@@ -15,6 +16,6 @@ TonePush push = pushed;
 void main() {
   const uint pixel = linear_index();
   if (pixel >= push.pixels) return;
-  const int number = int(texelFetch(numbers, int(pixel)).x);
-  picture[pixel] = texelFetch(levels, clamp(number, 0, int(push.last_level))).x;
+  const int number = int(VIEW_WORD(numbers, pixel));
+  picture[pixel] = VIEW_WORD(levels, clamp(number, 0, int(push.last_level)));
 }

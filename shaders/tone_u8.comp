@@ -5,9 +5,10 @@
 #include "layout.h"
 layout(local_size_x = kLinearGroup) in;
 #include "invocation.glsl"
+#include "views.glsl"
 
-layout(binding = 0) uniform usamplerBuffer numbers;  // four pixels
-layout(binding = 1) uniform usamplerBuffer levels;
+VECTORS_VIEW(0, NumbersView, numbers)  // four pixels
+WORDS_VIEW(1, LevelsView, levels)
 layout(std430, binding = 2) writeonly buffer Picture { uint picture[]; };
 layout(push_constant) uniform Push { TonePush pushed; };
 TonePush push = pushed;
@@ -15,7 +16,7 @@ TonePush push = pushed;
 // The first levels travel as push constants: most numbers are small, and a lookup in memory is dear.
 uint level(int number) {
   const int n = clamp(number, 0, int(push.last_level));
-  if (n >= kPushedLevels) return texelFetch(levels, n).x;
+  if (n >= kPushedLevels) return VIEW_WORD(levels, n);
   const uint word = n < 4 ? push.levels_0_to_3 : push.levels_4_to_7;
   return word >> 8 * (n & 3) & 255;
 }
@@ -23,6 +24,6 @@ uint level(int number) {
 void main() {
   const uint word = linear_index();
   if (4 * word >= push.pixels) return;
-  const ivec4 n = ivec4(texelFetch(numbers, int(word)));  // behind the last pixel there may be anything
+  const ivec4 n = ivec4(VIEW_VECTOR(numbers, word));  // behind the last pixel there may be anything
   picture[word] = level(n.x) | level(n.y) << 8 | level(n.z) << 16 | level(n.w) << 24;
 }

@@ -47,11 +47,11 @@ class PipelineBuilder {
     bytes_ += target.size();
   }
   /// See vulkan::Kernel::create.
-  void kernel(vulkan::Kernel& target, const char* name, std::span<const uint32_t> spirv,
+  void kernel(vulkan::Kernel& target, const char* name, const vulkan::Shader& shader,
               const vulkan::Bindings& bindings, size_t push_bytes, std::span<const uint32_t> constants = {},
               bool whole_subgroups = false) {
     make(target, [&] {
-      return vulkan::Kernel::create(device_, name, spirv, bindings, static_cast<uint32_t>(push_bytes),
+      return vulkan::Kernel::create(device_, name, shader, bindings, static_cast<uint32_t>(push_bytes),
                                     constants, whole_subgroups);
     });
   }

@@ -156,6 +156,16 @@ layout::ReplayFramesPush ReplayPipeline::frames_push(uint32_t frames) const {
   return push;
 }
 
+void ReplayPipeline::record_upload(Commands& commands, const ReplayGroup& group, uint32_t events,
+                                   uint32_t chunks) const {
+  if (group.device_events.size() == 0) return;
+  commands.copy(group.events, 0, group.device_events, 0, events * kWord);
+  commands.copy(group.chunks, 0, group.device_chunks, 0,
+                (uint64_t{chunks} + 1) * sizeof(layout::ReplayChunk));
+  commands.barrier();
+  commands.mark("upload");
+}
+
 void ReplayPipeline::record_count(Commands& commands, const ReplayGroup& group, uint32_t chunks) const {
   commands.fill(table_, uint64_t{chunks} * plan_.stride() * kWord, 0);
   commands.barrier();
@@ -211,15 +221,15 @@ void ReplayPipeline::record_frames(Commands& commands, const ReplayGroup& group,
   commands.mark("frames");
 }
 
+void ReplayPipeline::record_read_back(Commands& commands, const ReplayGroup& group, uint32_t frames) const {
+  if (group.device_pictures.size() == 0) return;
+  commands.copy(group.device_pictures, 0, group.pictures, 0, frames * plan_.picture_bytes());
+  commands.mark("copy");
+}
+
 void ReplayPipeline::record_group(Commands& commands, const ReplayGroup& group, uint32_t events,
                                   uint32_t chunks, uint32_t frames) const {
-  if (group.device_events.size() != 0) {
-    commands.copy(group.events, 0, group.device_events, 0, events * kWord);
-    commands.copy(group.chunks, 0, group.device_chunks, 0,
-                  (uint64_t{chunks} + 1) * sizeof(layout::ReplayChunk));
-    commands.barrier();
-    commands.mark("upload");
-  }
+  record_upload(commands, group, events, chunks);
   record_clear(commands, frames);
   if (events > 0) {
     record_count(commands, group, chunks);
@@ -229,10 +239,7 @@ void ReplayPipeline::record_group(Commands& commands, const ReplayGroup& group, 
     record_change(commands, group, chunks);
   }
   record_frames(commands, group, frames);
-  if (group.device_pictures.size() != 0) {
-    commands.copy(group.device_pictures, 0, group.pictures, 0, frames * plan_.picture_bytes());
-    commands.mark("copy");
-  }
+  record_read_back(commands, group, frames);
 }
 
 }  // namespace scarf

@@ -42,6 +42,8 @@ class ReplayPipeline {
   /// The stages of record_group one by one, for tests.
   layout::ReplayPush push(uint32_t chunks) const;
   layout::ReplayFramesPush frames_push(uint32_t frames) const;
+  void record_upload(vulkan::Commands& commands, const ReplayGroup& group, uint32_t events,
+                     uint32_t chunks) const;
   void record_count(vulkan::Commands& commands, const ReplayGroup& group, uint32_t chunks) const;
   void record_scan(vulkan::Commands& commands, const ReplayGroup& group, uint32_t chunks) const;
   void record_rank(vulkan::Commands& commands, const ReplayGroup& group, uint32_t chunks) const;
@@ -49,6 +51,7 @@ class ReplayPipeline {
   void record_carry(vulkan::Commands& commands, const ReplayGroup& group, uint32_t chunks) const;
   void record_change(vulkan::Commands& commands, const ReplayGroup& group, uint32_t chunks) const;
   void record_frames(vulkan::Commands& commands, const ReplayGroup& group, uint32_t frames) const;
+  void record_read_back(vulkan::Commands& commands, const ReplayGroup& group, uint32_t frames) const;
 
   uint64_t memory_bytes() const { return bytes_; }
   const ReplayPlan& plan() const { return plan_; }

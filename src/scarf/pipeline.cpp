@@ -60,9 +60,8 @@ void ScarfPipeline::build(PipelineBuilder& b, const Levels& levels) {
   b.table<uint32_t>(patch_classes_, "the classes of patches", columns.of_patch);
   tone_.build(b, levels, 2 * plane);
 
-  const uint32_t team[] = {plan_.workgroup_size(),     plan_.team_x,    plan_.team_y,
-                           plan_.lane_columns,         plan_.lane_rows, plan_.paints ? 1U : 0U,
-                           plan_.table_image ? 1U : 0U};
+  const uint32_t team[] = {plan_.workgroup_size(), plan_.team_x,    plan_.team_y,
+                           plan_.lane_columns,     plan_.lane_rows, plan_.paints ? 1U : 0U};
   const AppendPlan& a = plan_.append;
   const uint32_t appending[] = {
       a.lanes, a.team_x, a.team_y, a.lane_columns, a.lane_rows, plan_.paints ? 1U : 0U, a.teams};
@@ -76,11 +75,10 @@ void ScarfPipeline::build(PipelineBuilder& b, const Levels& levels) {
            sizeof(layout::PrunePush));
   b.kernel(settle_, "scarf_settle", shaders::scarf_settle, 3, sizeof(layout::SettlePush));
   b.kernel(clear_, "scarf_clear", shaders::scarf_clear, 1, sizeof(layout::ClearPush));
-  b.kernel(
-      place_, "scarf_place", shaders::scarf_place,
-      {View::vectors, View::words, View::storage, View::storage, View::words, View::storage, View::image},
-      sizeof(layout::BatchPush), team,
-      /*whole_subgroups=*/true);
+  b.kernel(place_, "scarf_place", shaders::scarf_place,
+           {View::vectors, View::words, View::image, View::storage, View::words, View::storage},
+           sizeof(layout::BatchPush), team,
+           /*whole_subgroups=*/true);
   b.kernel(append_, "scarf_append", shaders::scarf_append,
            {View::vectors, View::image, View::storage, View::storage}, sizeof(layout::AppendPush), appending,
            /*whole_subgroups=*/true);
@@ -106,7 +104,7 @@ Result<std::unique_ptr<EventBinding>> ScarfPipeline::bind_events(const Buffer& e
   auto k = std::make_unique<PushKernels>();
   PipelineBuilder b(device_);
   b.bind(k->count, count_, {&events, &pixel_classes_, &class_counts_});
-  b.bind(k->place, place_, {&events, &ranges_, &table_, &slots_, &alive_, &positions_, &table_});
+  b.bind(k->place, place_, {&events, &ranges_, &table_, &slots_, &alive_, &positions_});
   b.bind(k->append, append_, {&events, &heads_, &slots_, &positions_});
   if (!b.result()) return b.result().error();
   return std::unique_ptr<EventBinding>(std::move(k));

@@ -78,8 +78,8 @@ AppendPlan make_append_plan(const Plan& plan, const Geometry& geometry, const vu
   a.team_y = std::min(std::bit_ceil(event_rows), lanes / a.team_x);
   a.lane_columns = ceil_div(plan.most_columns, a.team_x);
   a.lane_rows = ceil_div(event_rows, a.team_y);
-  // Lanes of several teams see each other's heads because the lanes of a CPU device go in step.
-  if (limits.cpu) a.teams = std::min({lanes / (a.team_x * a.team_y), kMostTeams, plan.capacity});
+  // Lanes of several teams must see each other's heads.
+  if (limits.lanes_in_step) a.teams = std::min({lanes / (a.team_x * a.team_y), kMostTeams, plan.capacity});
   const uint32_t rows = ceil_div(static_cast<uint32_t>(geometry.y.grid), a.parts());
   const bool many_hits = plan.most_columns * event_rows >= kHitsWorthBands;
   const uint32_t wanted_bands = many_hits ? ceil_div(plan.patches / a.parts(), kRingsInCache) : 1;
@@ -161,8 +161,7 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
   const uint32_t blocks = (limits.loop_trips - 8) / trips_per_block(plan);
   plan.max_chunk_events = static_cast<uint32_t>(
       std::min<uint64_t>(layout::kMaxChunkEvents, uint64_t{blocks} * plan.team_lanes()));
-  const uint64_t table_bytes = std::min(
-      {limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range, limits.texels * sizeof(uint32_t)});
+  const uint64_t table_bytes = std::min(limits.cpu ? kTableBytesCpu : kTableBytesGpu, limits.storage_range);
   const uint64_t words = std::max(plan.patches, plan.class_words());
   const uint64_t chunks_that_fit = table_bytes / (words * sizeof(uint32_t));
   const uint32_t scan_budget = (limits.loop_trips - 8) / 2 - 1;  // the scan walks the chunks twice
@@ -181,7 +180,6 @@ Result<Plan> make_plan(const Geometry& geometry, std::span<const uint8_t> levels
   const uint32_t wanted = scarf::submission_events(options, limits);
   plan.submission_events =
       static_cast<uint32_t>(std::min<uint64_t>(wanted, uint64_t{plan.max_chunks} * longest));
-  plan.table_image = limits.cpu;
   plan.append = make_append_plan(plan, geometry, limits, options);
   plan.always_appends = options.placing == GpuOptions::Placing::appended;
   // All cores have work, and the same.

@@ -77,8 +77,6 @@ struct Plan {
   uint32_t cell_row_words = 0;   ///< of the positions that it needs; see kNotShown in shaders/layout.h
   uint32_t position_groups = 0;  ///< per patch
 
-  bool table_image = false;  ///< the place stage sees the table as an image
-
   AppendPlan append;
   bool appends = false;         ///< where prune does not pay
   bool always_appends = false;  ///< from the options

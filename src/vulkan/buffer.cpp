@@ -112,6 +112,11 @@ Buffer::~Buffer() {
   if (memory_ != VK_NULL_HANDLE) calls.FreeMemory(device_->handle(), memory_, nullptr);
 }
 
+uint64_t Buffer::bound_bytes() const {
+  if (guarded_ == nullptr) return size_;
+  return std::min(size_ + kGuardBytes, device_->limits().storage_range);
+}
+
 void Buffer::poison() {
   std::memset(guarded_, kPoison, size_ + kGuardBytes);
 }

@@ -29,6 +29,9 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_; }
   uint64_t size() const { return size_; }
+  /// What shaders are given. In poisoned memory the guard bytes too: else a driver that checks bounds would
+  /// drop what a shader writes beyond the end, and nobody would notice.
+  uint64_t bound_bytes() const;
   /// Host address; null for MemoryUse::device. Coherent: no flushes are needed.
   void* mapped() const { return mapped_; }
   template <class T>

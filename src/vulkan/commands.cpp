@@ -5,7 +5,14 @@
 #include <cstring>
 #include <utility>
 
+#include "core/ceil_div.h"
+
 namespace scarf::vulkan {
+
+WorkgroupGrid workgroup_grid(uint64_t workgroups, uint32_t most_columns) {
+  const uint64_t rows = ceil_div(workgroups, most_columns);
+  return {static_cast<uint32_t>(ceil_div(workgroups, rows)), static_cast<uint32_t>(rows)};
+}
 
 Result<Commands> Commands::create(Device& device, Queue& queue) {
   const Table& calls = device.calls();
@@ -86,9 +93,8 @@ void Commands::dispatch_bytes(const BoundKernel& bound, uint64_t invocations, ui
                               const void* push, uint32_t push_bytes) {
   if (invocations == 0) return;
   const Kernel& kernel = bound.kernel();
-  const uint64_t groups = (invocations + workgroup_size - 1) / workgroup_size;
-  const uint64_t columns = std::min<uint64_t>(groups, device_->limits().workgroups);
-  const uint64_t rows = (groups + columns - 1) / columns;
+  const WorkgroupGrid grid =
+      workgroup_grid(ceil_div(invocations, workgroup_size), device_->limits().workgroups);
   std::array<std::byte, kMaxPushBytes> constants{};
   std::memcpy(constants.data(), push, push_bytes);
   record([=, pipeline = kernel.pipeline(), layout = kernel.layout(), set = bound.set()](
@@ -96,7 +102,7 @@ void Commands::dispatch_bytes(const BoundKernel& bound, uint64_t invocations, ui
     calls.CmdBindPipeline(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     calls.CmdBindDescriptorSets(buffer, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
     calls.CmdPushConstants(buffer, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes, constants.data());
-    calls.CmdDispatch(buffer, static_cast<uint32_t>(columns), static_cast<uint32_t>(rows), 1);
+    calls.CmdDispatch(buffer, grid.columns, grid.rows, 1);
   });
 }
 

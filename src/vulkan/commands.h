@@ -18,6 +18,16 @@ struct StageSpan {
   uint64_t nanoseconds = 0;
 };
 
+/// Workgroups of a dispatch: columns x rows of them. There may be more than were asked for, by less than a
+/// column: the stages leave these alone.
+struct WorkgroupGrid {
+  uint32_t columns = 0;
+  uint32_t rows = 0;
+};
+
+/// At least `workgroups`, of which a device takes `most_columns` side by side.
+WorkgroupGrid workgroup_grid(uint64_t workgroups, uint32_t most_columns);
+
 class Commands {
  public:
   static constexpr uint32_t kMaxStages = 15;

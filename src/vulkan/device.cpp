@@ -19,6 +19,7 @@ namespace {
 
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr uint32_t kWorkgroupSize = 256;  // the largest of any shader
+constexpr uint32_t kStorageBuffers = 8;   // the most of any shader, views included
 constexpr VkSubgroupFeatureFlags kSubgroupOperations =
     VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -76,6 +77,32 @@ Error call_error(VkResult result, const char* call) noexcept try {
           "out of memory"};
 }
 
+// Without a driver, or without the hardware of any driver, there may be an empty list of devices, or no list,
+// or not even an instance.
+Error no_device(const std::string& why) {
+  return device_error(text("no Vulkan device found", why.empty() ? "" : " (", why, why.empty() ? "" : ")",
+                           "; install a driver (for the CPU: mesa-vulkan-drivers)"));
+}
+
+Error instance_error(VkResult result, const char* call) {
+  const Error e = call_error(result, call);
+  const bool no_driver = result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_INITIALIZATION_FAILED;
+  return no_driver ? no_device(e.message) : e;
+}
+
+// Whether an extension is among those that a call of two passes, for their number and for them, lists.
+template <class List>
+Result<bool> has_extension(const char* name, const char* call, List list) {
+  uint32_t count = 0;
+  if (const VkResult r = list(&count, nullptr); r != VK_SUCCESS) return call_error(r, call);
+  std::vector<VkExtensionProperties> extensions(count);
+  const VkResult r = list(&count, extensions.data());
+  if (r != VK_SUCCESS && r != VK_INCOMPLETE) return call_error(r, call);
+  extensions.resize(count);
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -121,6 +148,8 @@ struct Candidate {
   VkPhysicalDeviceProperties properties{};
   VkDriverId driver = VK_DRIVER_ID_MAX_ENUM;
   uint32_t subgroup_size = 0;
+  bool requires_subgroup_size = false;  // see Limits; likewise the next one
+  bool full_subgroups = false;
   bool float64 = false;
   std::vector<VkQueueFamilyProperties> families;
   uint32_t compute_family = 0;
@@ -147,8 +176,11 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
   calls.GetPhysicalDeviceProperties2(device, &properties);
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   VkPhysicalDeviceVulkan12Features features12{};
   features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+  features12.pNext = &features13;
   features.pNext = &features12;
   calls.GetPhysicalDeviceFeatures2(device, &features);
   VkPhysicalDeviceMemoryProperties memory{};
@@ -161,6 +193,11 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
   c.properties = properties.properties;
   c.driver = driver.driverID;
   c.subgroup_size = subgroup.subgroupSize;
+  // Drivers with one size may have nothing to choose from, and then take no request for it.
+  const bool one_size = control.minSubgroupSize == control.maxSubgroupSize;
+  c.requires_subgroup_size = features13.subgroupSizeControl == VK_TRUE &&
+                             (control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  c.full_subgroups = features13.computeFullSubgroups == VK_TRUE;
   c.float64 = features.features.shaderFloat64 == VK_TRUE;
   c.info.name = c.properties.deviceName;
   c.info.type = type_name(c.properties.deviceType);
@@ -192,8 +229,12 @@ Candidate describe(const Table& calls, VkPhysicalDevice device) {
   } else if (c.properties.limits.maxComputeWorkGroupInvocations < kWorkgroupSize) {
     c.info.rejected = text("runs workgroups of ", c.properties.limits.maxComputeWorkGroupInvocations,
                            " invocations, scarf needs ", kWorkgroupSize);
-  } else if (!(control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT)) {
-    c.info.rejected = "cannot fix the subgroup size of compute shaders";
+  } else if (c.properties.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers) {
+    c.info.rejected = text("binds ", c.properties.limits.maxPerStageDescriptorStorageBuffers,
+                           " storage buffers to a shader, scarf needs ", kStorageBuffers);
+  } else if (!c.requires_subgroup_size && !one_size) {
+    c.info.rejected = text("has subgroups of ", control.minSubgroupSize, " to ", control.maxSubgroupSize,
+                           " invocations and cannot fix their size in compute shaders");
   } else if (!compute) {
     c.info.rejected = "has no compute queue";
   }
@@ -205,7 +246,8 @@ Result<std::vector<Candidate>> candidates(const Table& calls, VkInstance instanc
   std::vector<VkPhysicalDevice> devices(64);
   auto count = static_cast<uint32_t>(devices.size());
   const VkResult result = calls.EnumeratePhysicalDevices(instance, &count, devices.data());
-  if (result != VK_SUCCESS && result != VK_INCOMPLETE) return call_error(result, "EnumeratePhysicalDevices");
+  if (result != VK_SUCCESS && result != VK_INCOMPLETE)
+    return instance_error(result, "EnumeratePhysicalDevices");
   devices.resize(count);
   std::vector<Candidate> found;
   for (VkPhysicalDevice device : devices) found.push_back(describe(calls, device));
@@ -214,9 +256,7 @@ Result<std::vector<Candidate>> candidates(const Table& calls, VkInstance instanc
            std::pair(!b.info.rejected.empty(), rank(b.info.type));
   });
   for (uint32_t i = 0; i < found.size(); ++i) found[i].info.index = i;
-  if (found.empty()) {
-    return device_error("no Vulkan device found; install a driver (for the CPU: mesa-vulkan-drivers)");
-  }
+  if (found.empty()) return no_device("");
   return found;
 }
 
@@ -359,23 +399,35 @@ Result<void> Device::create_instance(bool validation) {
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = enabled;
   features.pNext = &messenger;
-  const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  const auto portability =
+      has_extension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME, "EnumerateInstanceExtensionProperties",
+                    [&](uint32_t* count, VkExtensionProperties* list) {
+                      return table_.EnumerateInstanceExtensionProperties(nullptr, count, list);
+                    });
+  if (!portability) return portability.error();
+  std::vector<const char*> extensions;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pApplicationInfo = &application;
+  if (*portability) {
+    // Else the loader hides drivers that lie on another interface, MoltenVK for one.
+    extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    info.flags = VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+  }
   if (validation) {
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     info.pNext = &features;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &extension;
   }
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = table_.CreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_LAYER_NOT_PRESENT) {
     return device_error(
         "validation was asked for, but its layer is missing: install vulkan-validationlayers");
   }
-  if (auto r = check(result, "CreateInstance"); !r) return r;
+  if (result != VK_SUCCESS) return instance_error(result, "CreateInstance");
   if (auto r = load_instance_calls(table_, instance_); !r) return r;
   if (hook_) hook_(table_);
   if (validation && table_.CreateDebugUtilsMessengerEXT != nullptr) {
@@ -410,10 +462,16 @@ Result<void> Device::choose() {
   const VkPhysicalDeviceLimits& l = c.properties.limits;
   const uint32_t timestamp_bits = c.families[c.compute_family].timestampValidBits;
   limits_.storage_range = l.maxStorageBufferRange;
-  limits_.texels = l.maxTexelBufferElements;
+  const Quirks quirks = quirks_of(c.driver);
+  // Any storage buffer may be seen as words.
+  limits_.texel_views =
+      quirks.texel_views && l.maxTexelBufferElements >= l.maxStorageBufferRange / sizeof(uint32_t);
   limits_.workgroups = l.maxComputeWorkGroupCount[0];
   limits_.subgroup_size = c.subgroup_size;
-  limits_.loop_trips = quirks_of(c.driver).loop_trips;
+  limits_.requires_subgroup_size = c.requires_subgroup_size;
+  limits_.full_subgroups = c.full_subgroups;
+  limits_.loop_trips = quirks.loop_trips;
+  limits_.lanes_in_step = quirks.lanes_in_step;
   limits_.cpu = c.info.type == "cpu";
   limits_.cores = limits_.cpu ? std::max(1u, std::thread::hardware_concurrency()) : 1;
   limits_.float64 = c.float64;
@@ -435,8 +493,8 @@ Result<void> Device::choose() {
   VkPhysicalDeviceVulkan13Features features13{};
   features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   features13.synchronization2 = VK_TRUE;
-  features13.subgroupSizeControl = VK_TRUE;
-  features13.computeFullSubgroups = VK_TRUE;
+  features13.subgroupSizeControl = c.requires_subgroup_size ? VK_TRUE : VK_FALSE;
+  features13.computeFullSubgroups = c.full_subgroups ? VK_TRUE : VK_FALSE;
   features13.maintenance4 = VK_TRUE;  // workgroup sizes as specialization constants
   VkPhysicalDeviceVulkan12Features features12{};
   features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -453,6 +511,17 @@ Result<void> Device::choose() {
   info.pNext = &features;
   info.queueCreateInfoCount = static_cast<uint32_t>(queues.size());
   info.pQueueCreateInfos = queues.data();
+  // Such a driver wants this said. What it lacks, scarf does not use.
+  const char* subset = "VK_KHR_portability_subset";
+  const auto is_subset = has_extension(
+      subset, "EnumerateDeviceExtensionProperties", [&](uint32_t* count, VkExtensionProperties* list) {
+        return table_.EnumerateDeviceExtensionProperties(physical_, nullptr, count, list);
+      });
+  if (!is_subset) return is_subset.error();
+  if (*is_subset) {
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &subset;
+  }
   if (auto r = check(table_.CreateDevice(physical_, &info, nullptr, &device_), "CreateDevice"); !r) return r;
   if (auto r = load_device_calls(table_, device_); !r) return r;
   if (hook_) hook_(table_);
@@ -516,8 +585,9 @@ void Device::save_cache() const {
 Device::~Device() {
   if (forked()) return;
   if (device_ != VK_NULL_HANDLE) {
-    // After a partial start the table may not be loaded: the device then has no other objects.
-    if (table_.DeviceWaitIdle != nullptr) table_.DeviceWaitIdle(device_);
+    // After a partial start the table may not be loaded, and the device has no work: drivers without hardware
+    // may not be able to wait.
+    if (transfer_.timeline_ != VK_NULL_HANDLE) table_.DeviceWaitIdle(device_);
     if (cache_ != VK_NULL_HANDLE) {
       try {
         save_cache();

@@ -19,10 +19,14 @@ namespace scarf::vulkan {
 /// What the planners and the memory code need to know about a device.
 struct Limits {
   uint64_t storage_range = 0;  ///< bytes of one buffer binding
-  uint64_t texels = 0;         ///< of one texel buffer
-  uint32_t workgroups = 0;     ///< per axis of a dispatch
-  uint32_t subgroup_size = 0;  ///< required of kernels that ask for whole subgroups
-  uint32_t loop_trips = 0;     ///< see Quirks
+  bool texel_views =
+      false;                ///< kernels see views as texel buffers, which hold whatever a storage buffer does
+  uint32_t workgroups = 0;  ///< per axis of a dispatch
+  uint32_t subgroup_size = 0;           ///< of kernels that ask for whole subgroups
+  bool requires_subgroup_size = false;  ///< they have to ask for that size, or it may be another
+  bool full_subgroups = false;          ///< they can ask that no subgroup is partly empty
+  uint32_t loop_trips = 0;              ///< see Quirks
+  bool lanes_in_step = false;           ///< see Quirks
   bool cpu = false;
   uint32_t cores = 1;           ///< of a CPU device, which gives consecutive workgroups to one of them
   bool float64 = false;         ///< shaders may use doubles

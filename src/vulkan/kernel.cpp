@@ -8,7 +8,8 @@
 namespace scarf::vulkan {
 namespace {
 
-VkDescriptorType type_of(View view) {
+VkDescriptorType type_of(View view, const Limits& limits) {
+  if (!limits.texel_views) return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   switch (view) {
     case View::vectors:
     case View::words:
@@ -22,18 +23,11 @@ VkDescriptorType type_of(View view) {
 }
 
 Result<VkBufferView> create_view(const Device& device, const Buffer& buffer, View view) {
-  const uint64_t texels = buffer.size() / (view == View::vectors ? 16 : 4);
-  if (texels > device.limits().texels) {
-    return Error{ErrorCode::out_of_memory,
-                 text("a buffer of ", texels, " texels is needed, but those of device ", device.info().name,
-                      " hold at most ", device.limits().texels,
-                      "; use a smaller sensor, capacity or grid, or another device")};
-  }
   VkBufferViewCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
   info.buffer = buffer.handle();
   info.format = view == View::vectors ? VK_FORMAT_R32G32B32A32_UINT : VK_FORMAT_R32_UINT;
-  info.range = buffer.size();
+  info.range = buffer.bound_bytes();
   VkBufferView handle = VK_NULL_HANDLE;
   const VkResult result = device.calls().CreateBufferView(device.handle(), &info, nullptr, &handle);
   if (auto r = device.check(result, "CreateBufferView"); !r) return r.error();
@@ -42,7 +36,7 @@ Result<VkBufferView> create_view(const Device& device, const Buffer& buffer, Vie
 
 }  // namespace
 
-Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<const uint32_t> spirv,
+Result<Kernel> Kernel::create(const Device& device, const char* name, const Shader& shader,
                               const Bindings& bindings, uint32_t push_bytes,
                               std::span<const uint32_t> constants, bool whole_subgroups) {
   const Table& calls = device.calls();
@@ -52,7 +46,7 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
 
   std::vector<VkDescriptorSetLayoutBinding> slots(bindings.count());
   for (uint32_t i = 0; i < bindings.count(); ++i) {
-    slots[i] = {i, type_of(bindings[i]), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    slots[i] = {i, type_of(bindings[i], device.limits()), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   }
   VkDescriptorSetLayoutCreateInfo set_info{};
   set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
@@ -82,6 +76,7 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
   // Nothing owns the module, so from here until it is destroyed nothing may throw.
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  const std::span<const uint32_t> spirv = device.limits().texel_views ? shader.texels : shader.storage;
   module_info.codeSize = spirv.size_bytes();
   module_info.pCode = spirv.data();
   VkShaderModule module = VK_NULL_HANDLE;
@@ -100,8 +95,10 @@ Result<Kernel> Kernel::create(const Device& device, const char* name, std::span<
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
   if (whole_subgroups) {
-    info.stage.pNext = &subgroup;
-    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+    // Where there is but one size, asking for it may not be allowed.
+    if (device.limits().requires_subgroup_size) info.stage.pNext = &subgroup;
+    if (device.limits().full_subgroups)
+      info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
   }
   info.stage.module = module;
   info.stage.pName = "main";
@@ -170,17 +167,16 @@ Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kern
   infos.reserve(count);  // the writes point into both
   b.views_.reserve(count);
   for (const Buffer* buffer : buffers) {
-    // The size of a Buffer excludes its guard words, so a shader cannot reach them by accident unnoticed.
-    infos.push_back({buffer->handle(), 0, buffer->size()});
+    infos.push_back({buffer->handle(), 0, buffer->bound_bytes()});
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = b.set_;
     write.dstBinding = static_cast<uint32_t>(writes.size());
     write.descriptorCount = 1;
     const View view = kernel.bindings()[write.dstBinding];
-    write.descriptorType = type_of(view);
+    write.descriptorType = type_of(view, device.limits());
     write.pBufferInfo = &infos.back();
-    if (view != View::storage) {
+    if (write.descriptorType != VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
       auto handle = create_view(device, *buffer, view);
       if (!handle) return handle.error();
       b.views_.push_back(*handle);
@@ -193,7 +189,7 @@ Result<BoundKernel> BoundKernel::create(const Device& device, const Kernel& kern
 }
 
 void BoundKernel::rebind(uint32_t binding, const Buffer& buffer) {
-  const VkDescriptorBufferInfo info = {buffer.handle(), 0, buffer.size()};
+  const VkDescriptorBufferInfo info = {buffer.handle(), 0, buffer.bound_bytes()};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;

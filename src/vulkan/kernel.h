@@ -8,16 +8,17 @@
 
 #include "vulkan/buffer.h"
 #include "vulkan/device.h"
+#include "vulkan/shader.h"
 
 namespace scarf::vulkan {
 
-/// How a kernel sees a buffer. llvmpipe reads words through a texel buffer in a few instructions for all
-/// lanes, and those of a storage buffer in a loop over the lanes.
+/// How a kernel sees a buffer. All but `storage` are texel buffers where Limits::texel_views says so, and
+/// storage buffers elsewhere: see shaders/views.glsl.
 enum class View {
   storage,  ///< a storage buffer
-  vectors,  ///< a uniform texel buffer (usamplerBuffer) of four words each
-  words,    ///< a uniform texel buffer of one word each
-  image,    ///< a storage texel buffer (uimageBuffer, r32ui), read and written
+  vectors,  ///< read, four words at a time; or a uniform texel buffer (usamplerBuffer)
+  words,    ///< read, word by word; likewise
+  image,    ///< words, read and written; or a storage texel buffer (uimageBuffer, r32ui)
 };
 
 /// The bindings 0, 1, ... of a kernel.
@@ -54,7 +55,7 @@ class Kernel {
 
   /// `constants` become specialization constants 0, 1, ... With `whole_subgroups` constant 0 is the local
   /// size, a multiple of Limits::subgroup_size, and every subgroup has that size.
-  static Result<Kernel> create(const Device& device, const char* name, std::span<const uint32_t> spirv,
+  static Result<Kernel> create(const Device& device, const char* name, const Shader& shader,
                                const Bindings& bindings, uint32_t push_bytes,
                                std::span<const uint32_t> constants, bool whole_subgroups = false);
 

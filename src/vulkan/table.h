@@ -10,12 +10,13 @@
 
 // clang-format off
 #define SCARF_VK_GLOBAL_CALLS(CALL) \
-  CALL(EnumerateInstanceVersion) CALL(EnumerateInstanceLayerProperties) CALL(CreateInstance)
+  CALL(EnumerateInstanceVersion) CALL(EnumerateInstanceLayerProperties) CALL(EnumerateInstanceExtensionProperties) \
+  CALL(CreateInstance)
 
 #define SCARF_VK_INSTANCE_CALLS(CALL) \
   CALL(DestroyInstance) CALL(EnumeratePhysicalDevices) CALL(GetPhysicalDeviceProperties2) \
   CALL(GetPhysicalDeviceFeatures2) CALL(GetPhysicalDeviceMemoryProperties) \
-  CALL(GetPhysicalDeviceQueueFamilyProperties) CALL(CreateDevice) CALL(GetDeviceProcAddr)
+  CALL(GetPhysicalDeviceQueueFamilyProperties) CALL(EnumerateDeviceExtensionProperties) CALL(CreateDevice) CALL(GetDeviceProcAddr)
 
 #define SCARF_VK_DEVICE_CALLS(CALL) \
   CALL(DestroyDevice) CALL(GetDeviceQueue) CALL(DeviceWaitIdle) \

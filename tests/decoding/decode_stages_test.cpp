@@ -59,6 +59,9 @@ class DecodeStages : public test::DeviceTest, public testing::WithParamInterface
     for (size_t i = 0; i < words.size(); ++i)
       std::memcpy(&words[i], bytes.data() + i * word_bytes, word_bytes);
     std::memcpy(piece_.words.host.mapped(), bytes.data(), bytes.size());
+    if (piece_.words.device.size() != 0) {
+      run([&](vulkan::Commands& c) { c.copy(piece_.words.host, 0, piece_.words.device, 0, bytes.size()); });
+    }
     const auto count = static_cast<uint32_t>(words.size());
     const uint32_t blocks = ceil_div(count, layout::kDecodeBlock);
     const bool evt2 = GetParam() == CameraWords::evt2;

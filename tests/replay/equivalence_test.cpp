@@ -303,9 +303,7 @@ struct Dispatches {
 };
 
 TEST(ReplayDispatches, DoNotGrowWithTheFramesOfAGroup) {
-  auto device = vulkan::Device::create({}, Dispatches::install);
-  ASSERT_TRUE(device) << device.error().message;
-  const auto context = std::make_shared<GpuContext>(std::move(*device));
+  const auto context = test::value_of(test::create_context({}, Dispatches::install));
   const SensorSize sensor = {40, 30};
   const auto events = test::make_stream(test::Spread::uniform, sensor, 3000, 10);
   std::vector<uint64_t> dispatches;

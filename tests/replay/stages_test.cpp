@@ -83,6 +83,7 @@ class ReplayStages : public test::DeviceTest {
     const auto frame_count = static_cast<uint32_t>(frames.size());
     const stages::ReplayEvents group = {events, chunks};
     const layout::ReplayPush push = pipeline_->push(count);
+    run([&] { pipeline_->record_upload(commands_, *group_, static_cast<uint32_t>(events.size()), count); });
 
     std::vector<uint32_t> table(size_t{count} * plan_.stride());
     stages::replay_count(group, ranges_, table, push);
@@ -118,7 +119,11 @@ class ReplayStages : public test::DeviceTest {
     ASSERT_EQ(read(pipeline_->kept(), kept_.size()), kept_) << "change";
     ASSERT_EQ(kept_pixels(read(pipeline_->pixels(), slots_.size())), kept_pixels(slots_)) << "change";
 
-    run([&] { pipeline_->record_frames(commands_, *group_, frame_count); });
+    run([&] {
+      pipeline_->record_frames(commands_, *group_, frame_count);
+      commands_.barrier();
+      pipeline_->record_read_back(commands_, *group_, frame_count);
+    });
     std::vector<int32_t> identity(plan_.capacity + 1);
     std::iota(identity.begin(), identity.end(), 0);
     if (pixels_ == ReplayPixels::u8) compare_frames<uint8_t>(changes, levels_.u8, frame_count);

@@ -243,7 +243,7 @@ TEST_F(Group, RefusesStrangersAndMembers) {
   const auto twice = group_->add(*member.device);
   ASSERT_FALSE(twice);
   EXPECT_EQ(twice.error().code, ErrorCode::illegal_parameter);
-  const auto context = value_of(GpuContext::create());
+  const auto context = value_of(test::create_context());
   const auto stranger = value_of(make_gpu_scarf(context, geometry));
   const auto refused = group_->add(*stranger);
   ASSERT_FALSE(refused);
@@ -277,8 +277,7 @@ TEST(GroupCalls, SubmissionsAndBarriersDoNotGrowWithMembers) {
     DeviceOptions options;
     options.upload = upload;
     options.cache_folder = "-";
-    const auto context =
-        std::make_shared<GpuContext>(value_of(vulkan::Device::create(options, Calls::install)));
+    const auto context = value_of(test::create_context(options, Calls::install));
     int barriers_of_one = 0;
     for (const size_t count : {size_t{1}, size_t{7}}) {
       const auto group = make_gpu_group(context);

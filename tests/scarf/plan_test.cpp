@@ -14,11 +14,11 @@ namespace {
 vulkan::Limits limits_of(uint32_t subgroup_size, uint32_t loop_trips, bool cpu) {
   vulkan::Limits limits;
   limits.storage_range = 128u << 20;
-  limits.texels = 1u << 27;
   limits.workgroups = 65'535;
   limits.subgroup_size = subgroup_size;
   limits.loop_trips = loop_trips;
   limits.cpu = cpu;
+  limits.lanes_in_step = cpu;
   limits.cores = cpu ? 2 : 1;
   return limits;
 }

@@ -1,4 +1,5 @@
-// Device contexts for tests: validation on, memory poisoned, and any message fails the test.
+// Device contexts for tests: validation on, memory poisoned, and any message fails the test. They pose as
+// SCARF_TEST_POSE says.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,6 +8,8 @@
 
 #include "scarf/gpu.h"
 #include "scarf/reference.h"
+#include "tests/support/posed_device.h"
+#include "tests/support/same.h"
 
 namespace scarf::test {
 
@@ -23,10 +26,8 @@ class DeviceTest : public testing::Test {
  protected:
   void SetUp() override { open(checked_options()); }
 
-  void open(const DeviceOptions& options) {
-    auto context = GpuContext::create(options);
-    ASSERT_TRUE(context) << context.error().message;
-    context_ = *context;
+  void open(const DeviceOptions& options, const Pose& pose = pose_of_environment()) {
+    context_ = value_of(create_context(options, {}, pose));
   }
 
   void TearDown() override {
@@ -35,15 +36,11 @@ class DeviceTest : public testing::Test {
   }
 
   std::unique_ptr<GpuScarf> device_scarf(const Geometry& geometry, const GpuOptions& options = {}) {
-    auto made = make_gpu_scarf(context_, geometry, kDefaultAccumulation, options);
-    EXPECT_TRUE(made) << (made ? "" : made.error().message);
-    return made ? std::move(*made) : nullptr;
+    return value_of(make_gpu_scarf(context_, geometry, kDefaultAccumulation, options));
   }
 
   static std::unique_ptr<Scarf> reference_scarf(const Geometry& geometry) {
-    auto made = make_reference_scarf(geometry);
-    EXPECT_TRUE(made) << (made ? "" : made.error().message);
-    return made ? std::move(*made) : nullptr;
+    return value_of(make_reference_scarf(geometry));
   }
 
   std::shared_ptr<GpuContext> context_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scarf/gpu.h"
+#include "tests/support/posed_device.h"
 #include "vulkan/device.h"
 #include "vulkan/table.h"
 
@@ -62,7 +63,7 @@ struct Faulty<Member> {
   static void install(vulkan::Table&) {}
 };
 
-/// For vulkan::Device::create.
+/// For create_device().
 inline void install_faults(vulkan::Table& table) {
 #define SCARF_TEST_INSTALL(name) Faulty<&vulkan::Table::name>::install(table);
   SCARF_VK_GLOBAL_CALLS(SCARF_TEST_INSTALL)
@@ -76,7 +77,7 @@ inline Result<std::shared_ptr<GpuContext>> faulty_context(DeviceOptions::Upload 
   DeviceOptions options;
   options.upload = upload;
   options.cache_folder = "-";
-  auto device = vulkan::Device::create(options, install_faults);
+  auto device = create_device(options, install_faults);
   if (!device) return device.error();
   Faults::stop_device = [handle = (*device)->handle()] {
     Faulty<&vulkan::Table::DeviceWaitIdle>::real(handle);

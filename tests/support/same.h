@@ -3,16 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "scarf/scarf.h"
 
 namespace scarf::test {
 
+/// The value; an error fails the test, and ends it.
 template <class T>
 T value_of(Result<T> result) {
-  if (!result) {
-    ADD_FAILURE() << result.error().message;
-    return T{};
-  }
+  if (!result) throw std::runtime_error(result.error().message);
   return std::move(result).value();
 }
 template <class T>
