@@ -26,6 +26,7 @@ class ReadAhead final : public EventSource {
   std::optional<SensorSize> sensor() const override { return sensor_; }
   Result<size_t> read(std::span<Event> out) override;
   Result<void> unchanged() const override { return source_->unchanged(); }
+  std::span<const HeaderLine> header() const override { return source_->header(); }
   /// Empty until read() has returned 0 or an error; `seen` is done by then too.
   const ReadReport& report() const override { return report_; }
   uint64_t bytes_read() const override { return bytes_read_; }

@@ -104,7 +104,7 @@ OutputRule rule_of(const ReprocessOptions& options, const std::vector<Job>& jobs
   if (!fs::is_directory(options.input, ignored)) rule.add_input(options.input);
   if (!options.recipe.empty()) rule.add_input(options.recipe);
   for (const Job& job : jobs) {
-    rule.add_input(job.path);
+    rule.add_input(job.path, options.output);
     const auto times = job.settings.find("at-times");
     if (times == job.settings.end()) continue;
     for (const std::string& name : times->second) rule.add_input(side_file(name, job.path));

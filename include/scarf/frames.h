@@ -36,7 +36,7 @@ class FrameSource {
   /// The next frame in file order; nullopt at the end. What is passed over of AEDAT is no error, unless
   /// ReadOptions::strict says so, and the frames behind it follow.
   virtual Result<std::optional<GreyFrame>> read() = 0;
-  const PassedFrames& passed_over() const { return passed_over_; }
+  virtual const PassedFrames& passed_over() const { return passed_over_; }
 
  protected:
   void pass_over(uint64_t byte, std::string what) {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "io/forwarding.h"
+
 namespace scarf {
 namespace {
 
@@ -33,61 +35,53 @@ constexpr const char* kReadAgain =
 constexpr const char* kWriteAgain =
     "the writer ran out of memory, and what it had written is not known; create the recording again";
 
-class GuardedEvents final : public EventSource {
+class GuardedEvents final : public ForwardingEvents {
  public:
-  explicit GuardedEvents(std::unique_ptr<EventSource> source) : source_(std::move(source)) {}
-
-  std::string_view format() const override { return source_->format(); }
-  std::optional<SensorSize> sensor() const override { return source_->sensor(); }
+  using ForwardingEvents::ForwardingEvents;
   Result<size_t> read(std::span<Event> out) override {
     return guard_.run([&] { return source_->read(out); });
   }
-  Result<void> unchanged() const override { return source_->unchanged(); }
-  const ReadReport& report() const override { return source_->report(); }
-  uint64_t bytes_read() const override { return source_->bytes_read(); }
-  uint64_t bytes_total() const override { return source_->bytes_total(); }
+  Result<void> unchanged() const override {
+    return as_result([&] { return source_->unchanged(); });
+  }
 
  private:
-  std::unique_ptr<EventSource> source_;
   Guard guard_{kReadAgain};
 };
 
-class GuardedFrames final : public FrameSource {
+class GuardedFrames final : public ForwardingFrames {
  public:
-  explicit GuardedFrames(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+  using ForwardingFrames::ForwardingFrames;
   Result<std::optional<GreyFrame>> read() override {
     return guard_.run([&] { return source_->read(); });
   }
 
  private:
-  std::unique_ptr<FrameSource> source_;
   Guard guard_{kReadAgain};
 };
 
-class GuardedTriggers final : public TriggerSource {
+class GuardedTriggers final : public ForwardingTriggers {
  public:
-  explicit GuardedTriggers(std::unique_ptr<TriggerSource> source) : source_(std::move(source)) {}
+  using ForwardingTriggers::ForwardingTriggers;
   Result<size_t> read(std::span<Trigger> out) override {
     return guard_.run([&] { return source_->read(out); });
   }
 
  private:
-  std::unique_ptr<TriggerSource> source_;
   Guard guard_{kReadAgain};
 };
 
-class GuardedWords final : public WordSource {
+class GuardedWords final : public ForwardingWords {
  public:
-  explicit GuardedWords(std::unique_ptr<WordSource> source) : source_(std::move(source)) {}
-  std::string_view format() const override { return source_->format(); }
-  std::optional<SensorSize> sensor() const override { return source_->sensor(); }
+  using ForwardingWords::ForwardingWords;
   Result<size_t> read(std::span<uint8_t> out) override {
     return guard_.run([&] { return source_->read(out); });
   }
-  Result<void> unchanged() const override { return source_->unchanged(); }
+  Result<void> unchanged() const override {
+    return as_result([&] { return source_->unchanged(); });
+  }
 
  private:
-  std::unique_ptr<WordSource> source_;
   Guard guard_{kReadAgain};
 };
 

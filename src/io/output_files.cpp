@@ -164,8 +164,12 @@ struct OutputRule::State {
   bool overwrite = false;
   std::mutex mutex;
   std::map<Identity, std::string> inputs;
-  std::vector<std::string> folders;  // whose content is not among the inputs yet
-  std::set<std::string> written;     // keys of outputs
+  struct Folder {
+    std::string path;
+    std::string except;  // within it, or empty
+  };
+  std::vector<Folder> folders;    // whose content is not among the inputs yet
+  std::set<std::string> written;  // keys of outputs
 
   void add(const std::string& path, const std::string& shown) {
     struct stat status {};
@@ -184,7 +188,7 @@ bool OutputRule::overwrite() const {
   return state_->overwrite;
 }
 
-void OutputRule::add_input(const std::string& path) {
+void OutputRule::add_input(const std::string& path, const std::string& except) {
   const std::lock_guard lock(state_->mutex);
   struct stat status {};
   if (path == kStandardStream) {
@@ -195,7 +199,7 @@ void OutputRule::add_input(const std::string& path) {
   }
   state_->add(path, path);
   if (stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
-    state_->folders.push_back(path);
+    state_->folders.push_back({path, except});
     return;
   }
   // What SQLite keeps beside a database is part of it.
@@ -204,11 +208,16 @@ void OutputRule::add_input(const std::string& path) {
 
 std::optional<std::string> OutputRule::input_of(const struct stat& file) const {
   const std::lock_guard lock(state_->mutex);
-  for (const std::string& folder : std::exchange(state_->folders, {})) {
+  for (const auto& [folder, except] : std::exchange(state_->folders, {})) {
     std::error_code error;
     for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
-      state_->add(entry->path().string(), folder);
+      std::error_code ignored;
+      if (!except.empty() && entry->is_directory(ignored) && fs::equivalent(entry->path(), except, ignored)) {
+        entry.disable_recursion_pending();
+      } else {
+        state_->add(entry->path().string(), folder);
+      }
     }
   }
   const auto found = state_->inputs.find(identity_of(file));

@@ -30,7 +30,8 @@ class OutputRule {
   bool overwrite() const;
   /// A file or folder, with all that is in it; "-" is standard input. Whatever name leads to one of these
   /// files, it is never written to. What is not there is no input.
-  void add_input(const std::string& path);
+  /// `except`: a folder within it for outputs, which is none; what is there is left to whose it is.
+  void add_input(const std::string& path, const std::string& except = {});
   /// The input that a file or folder is, or is part of, whatever its name.
   std::optional<std::string> input_of(const struct stat& file) const;
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "io/forwarding.h"
+
 namespace scarf {
 namespace {
 
@@ -16,51 +18,43 @@ Result<T> checked(Result<T> read, const InputFiles& files, End end) {
 
 constexpr auto kNothing = [](size_t count) { return count == 0; };
 
-class WatchedEvents final : public EventSource {
+class WatchedEvents final : public ForwardingEvents {
  public:
   WatchedEvents(std::unique_ptr<EventSource> source, std::shared_ptr<const InputFiles> files)
-      : source_(std::move(source)), files_(std::move(files)) {}
+      : ForwardingEvents(std::move(source)), files_(std::move(files)) {}
 
-  std::string_view format() const override { return source_->format(); }
-  std::optional<SensorSize> sensor() const override { return source_->sensor(); }
   Result<size_t> read(std::span<Event> out) override {
     return checked(source_->read(out), *files_, kNothing);
   }
   Result<void> unchanged() const override { return files_->unchanged(); }
-  const ReadReport& report() const override { return source_->report(); }
-  uint64_t bytes_read() const override { return source_->bytes_read(); }
-  uint64_t bytes_total() const override { return source_->bytes_total(); }
 
  private:
-  std::unique_ptr<EventSource> source_;
   std::shared_ptr<const InputFiles> files_;
 };
 
-class WatchedFrames final : public FrameSource {
+class WatchedFrames final : public ForwardingFrames {
  public:
   WatchedFrames(std::unique_ptr<FrameSource> source, std::shared_ptr<const InputFiles> files)
-      : source_(std::move(source)), files_(std::move(files)) {}
+      : ForwardingFrames(std::move(source)), files_(std::move(files)) {}
 
   Result<std::optional<GreyFrame>> read() override {
     return checked(source_->read(), *files_, [](const auto& frame) { return !frame; });
   }
 
  private:
-  std::unique_ptr<FrameSource> source_;
   std::shared_ptr<const InputFiles> files_;
 };
 
-class WatchedTriggers final : public TriggerSource {
+class WatchedTriggers final : public ForwardingTriggers {
  public:
   WatchedTriggers(std::unique_ptr<TriggerSource> source, std::shared_ptr<const InputFiles> files)
-      : source_(std::move(source)), files_(std::move(files)) {}
+      : ForwardingTriggers(std::move(source)), files_(std::move(files)) {}
 
   Result<size_t> read(std::span<Trigger> out) override {
     return checked(source_->read(out), *files_, kNothing);
   }
 
  private:
-  std::unique_ptr<TriggerSource> source_;
   std::shared_ptr<const InputFiles> files_;
 };
 

@@ -40,7 +40,7 @@ size_t open_files() {
 }
 
 Result<void> write_all(const std::string& path, const std::string& format, std::span<const Event> events) {
-  auto sink = ours([&] { return create_events(path, format, kSensor); });
+  auto sink = ours([&] { return create_events(path, format, kSensor, {.overwrite = true}); });
   if (!sink) return sink.error();
   Result<void> first;
   for (size_t at = 0; at < events.size(); at += 700) {

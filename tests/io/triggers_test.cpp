@@ -109,7 +109,7 @@ TEST(Triggers, AreWrittenAmongTheEventsAndComeBack) {
     for (uint32_t seed = 0; seed < 6; ++seed) {
       const Mixed mixed = mixed_stream(seed, inputs, seed % 2 == 0 ? 5'000 : 40'000'000);
       const TemporaryFile file;
-      auto sink = *create_events(file.path(), format, {640, 480});
+      auto sink = *create_events(file.path(), format, {640, 480}, {.overwrite = true});
       size_t event = 0;
       size_t trigger = 0;
       for (const bool is_event : mixed.is_event) {
@@ -133,7 +133,7 @@ TEST(Triggers, AreWordsOfTheFormat) {
   const std::vector<Trigger> triggers = {{67, 17 % 16, 1}};
   const auto words_of = [&](const std::string& format) {
     const TemporaryFile file;
-    auto sink = *create_events(file.path(), format, {640, 480});
+    auto sink = *create_events(file.path(), format, {640, 480}, {.overwrite = true});
     EXPECT_TRUE(sink->write_triggers(triggers).ok());
     EXPECT_TRUE(sink->finish().ok());
     const Bytes content = file.content();
@@ -152,7 +152,7 @@ TEST(Triggers, AreWordsOfTheFormat) {
 TEST(Triggers, AreRefusedWhereTheyCannotBeHeld) {
   const auto refusal = [](const std::string& format, const Trigger& trigger) {
     const TemporaryFile file;
-    auto sink = *create_events(file.path(), format, {640, 480});
+    auto sink = *create_events(file.path(), format, {640, 480}, {.overwrite = true});
     const Event event = {100, 1, 2, 1};
     EXPECT_TRUE(sink->write({&event, 1}).ok());
     const auto written = sink->write_triggers({&trigger, 1});

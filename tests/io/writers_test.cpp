@@ -283,7 +283,7 @@ TEST(Writers, TheHeaderOfTheCameraIsReadAndWritten) {
   for (const FormatInfo& format : formats()) {
     if (!format.written) continue;
     const TemporaryFile file;
-    auto sink = *create_events(file.path(), format.name, {640, 480});
+    auto sink = *create_events(file.path(), format.name, {640, 480}, {.overwrite = true});
     const auto added = sink->write_header(header);
     EXPECT_EQ(added.ok(), format.writes_header) << format.name;
     ASSERT_TRUE(sink->write(events).ok());
@@ -308,7 +308,7 @@ TEST(Writers, TheHeaderTakesNoLineThatWouldBeReadOtherwise) {
         HeaderLine{"format", "EVT4"}, HeaderLine{"Width", "3"}, HeaderLine{"a b", "c"},
         HeaderLine{"a", "b\n% end"}, HeaderLine{"a\n", "b"}, HeaderLine{"a", std::string(4096, 'x')}}) {
     const TemporaryFile file;
-    auto sink = *create_events(file.path(), "evt3", {640, 480});
+    auto sink = *create_events(file.path(), "evt3", {640, 480}, {.overwrite = true});
     const auto added = sink->write_header({&line, 1});
     ASSERT_FALSE(added.ok()) << line.key;
     EXPECT_EQ(added.error().code, ErrorCode::bad_input);

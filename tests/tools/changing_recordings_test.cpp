@@ -129,8 +129,9 @@ TEST_F(ChangingRecording, IsFoundInAnyFileOfAFolder) {
   write_text(path("seq/images.txt"), "0.5 images/a.png\n");
   const std::string events = path("seq/events.txt");
   const std::string list = path("seq/images.txt");
-  expect_told(run_meanwhile("info " + path("seq"), events, [&] { append(list, "0.6 images/a.png\n"); }),
-              list);
+  expect_told(
+      run_meanwhile("digest --cpu " + path("seq"), events, [&] { append(list, "0.6 images/a.png\n"); }),
+      list);
 }
 
 TEST_F(ChangingRecording, TriggersAreWatchedToTheirEnd) {

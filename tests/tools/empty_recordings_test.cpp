@@ -22,7 +22,7 @@ TEST_F(Program, AJobThatGotNoEventHasFailed) {
   write_text(path("none.txt"), kOutside);
   write_text(path("empty.csv"), "%geometry:64,48\n");
   ASSERT_EQ(run("simulate " + path("no-triggers.raw") + " --duration 0.01 --sensor 64x48").exit_code, 0);
-  fs::create_directory(path("out"));
+  fs::create_directory(path("made"));
   for (const std::string& job : std::vector<std::string>{
            "render --cpu RECORDING -o OUT/a.png", "render --cpu RECORDING -o OUT/a.npy",
            "render --cpu RECORDING -o OUT/a.mp4", "render --cpu RECORDING -o OUT/a.h5",
@@ -33,7 +33,7 @@ TEST_F(Program, AJobThatGotNoEventHasFailed) {
     for (const char* recording : {"none.txt", "empty.csv"}) {
       std::string line = job;
       for (const auto& [word, name] :
-           {std::pair{"RECORDING", path(recording)}, std::pair{"OUT", path("out")}}) {
+           {std::pair{"RECORDING", path(recording)}, std::pair{"OUT", path("made")}}) {
         for (size_t at = 0; (at = line.find(word)) != line.npos;)
           line.replace(at, std::string_view(word).size(), name);
       }
@@ -44,7 +44,7 @@ TEST_F(Program, AJobThatGotNoEventHasFailed) {
       EXPECT_THAT(outcome.err,
                   AllOf(HasSubstr(recording), HasSubstr("not one event"), HasSubstr("--allow-empty")));
       EXPECT_EQ(outcome.out, "");
-      EXPECT_TRUE(fs::is_empty(path("out")));
+      EXPECT_TRUE(fs::is_empty(path("made")));
     }
   }
   EXPECT_THAT(run("digest --cpu " + path("none.txt")).err, HasSubstr("3 events outside the sensor"));
@@ -106,7 +106,7 @@ std::string with_jump(int64_t seconds) {
 }
 
 TEST_F(Program, AJumpThatWouldFloodTheOutputEndsTheJobAndNothingIsWritten) {
-  fs::create_directory(path("out"));
+  fs::create_directory(path("made"));
   write_text(path("jump.csv"), with_jump(3000));
   for (const char* output : {"out/frames", "out/a.npy", "out/a.mp4", "out/a.h5"}) {
     for (const char* machine : {" --cpu", ""}) {
@@ -118,7 +118,7 @@ TEST_F(Program, AJumpThatWouldFloodTheOutputEndsTheJobAndNothingIsWritten) {
         EXPECT_TRUE(fs::is_empty(path("out/frames")));
         fs::remove(path("out/frames"));
       }
-      EXPECT_TRUE(fs::is_empty(path("out"))) << output;
+      EXPECT_TRUE(fs::is_empty(path("made"))) << output;
     }
   }
   // As many as the user wants, and a pause is none.

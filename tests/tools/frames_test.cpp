@@ -56,10 +56,11 @@ TEST_F(Program, FramesThatArePassedOverAreTold) {
   EXPECT_THAT(some.out, HasSubstr("byte " + std::to_string(header.size())));
   EXPECT_EQ(content_of(path("pictures/frames.csv")),
             "index,t_us,exposure_begin_us,exposure_end_us\n0,25,20,30\n");
-  EXPECT_EQ(run("frames --strict " + path("some.aedat") + " -o " + path("pictures")).exit_code, 1);
+  EXPECT_EQ(run("frames --strict --overwrite " + path("some.aedat") + " -o " + path("pictures")).exit_code,
+            1);
 
   write_text(path("none.aedat"), header + frame_packet(99, 99));
-  const Outcome none = run("frames " + path("none.aedat") + " -o " + path("pictures"));
+  const Outcome none = run("frames --overwrite " + path("none.aedat") + " -o " + path("pictures"));
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_THAT(none.err, HasSubstr("no frame was read"));
 }

@@ -87,7 +87,7 @@ TEST(FrameRate, OneGapOfTooManyFramesIsAnErrorBeforeTheFirstOfThem) {
   ASSERT_FALSE(r.ok());
   EXPECT_EQ(r.error().code, ErrorCode::bad_input);
   EXPECT_THAT(r.error().message, HasSubstr("--max-frames"));
-  EXPECT_THAT(r.error().message, HasSubstr("event 2 (t 5000000000000)"));
+  EXPECT_THAT(r.error().message, HasSubstr("event 2 (t 5000000000000 us)"));
   EXPECT_EQ(taken, 0);
 }
 

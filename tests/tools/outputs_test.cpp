@@ -204,7 +204,10 @@ TEST_F(Outputs, StandardInputAndOutputAreFilesToo) {
   EXPECT_EQ(run("info " + file + " >>" + file).exit_code, 2);
   EXPECT_EQ(run("convert " + file + " - --output-format text >>" + file).exit_code, 2);
   EXPECT_TRUE(content_of(file) == before);
-  EXPECT_EQ(run("convert " + file + " /dev/stdout --output-format text >" + path("copy")).exit_code, 0);
+  EXPECT_EQ(
+      run("convert " + file + " /dev/stdout --output-format text >" + path("copy") + " 2>" + path("told"))
+          .exit_code,
+      0);
   EXPECT_TRUE(content_of(path("copy")) == before);
   EXPECT_EQ(run("convert " + file + " /dev/null --output-format evt3").exit_code, 0);
 }
@@ -335,9 +338,11 @@ TEST_F(Outputs, TheSameCommandTwiceMakesTheSameBytes) {
 
 // The rule has one place: nothing else in the program makes, renames or removes files.
 TEST(OutputRules, OnlyOneComponentTouchesFiles) {
-  // The cache of pipelines, which no option names; the example, which is a program of its own.
+  // The cache of pipelines, which no option names; a bag that is unpacked into a temporary file without a
+  // name; what libhdf5 writes through, into a file that the component has made.
   const std::set<std::string> exempt = {"src/io/output_files.cpp", "src/io/temporaries.cpp",
-                                        "src/vulkan/device.cpp"};
+                                        "src/vulkan/pipeline_cache.cpp", "src/io/rosbag2_reader.cpp",
+                                        "src/io/hdf5/file_driver.cpp"};
   const std::vector<std::string> calls = {"ofstream",
                                           "fopen(",
                                           "freopen(",

@@ -212,7 +212,7 @@ Result<Outcome> process(const Job& job, const Workplace& workplace, Meter& meter
   }
   const std::vector<std::string> outputs = suffixes_of(job.settings);
   OutputRule rule = workplace.rule;
-  rule.add_input(job.path);
+  rule.add_input(job.path, workplace.out);
   auto place = ResultPlace::claim(workplace.out, job.relative, result_suffixes(job.settings),
                                   workplace.replaces(), rule);
   if (!place) return place.error();
