@@ -96,7 +96,7 @@ class WholeCorpus : public ReprocessTest {
 
   void expect_summary(const Outcome& outcome, const std::string& out) const {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 3) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
     EXPECT_TRUE(unfinished(out).empty());
     const Json summary = json_in(path(out + "/summary.json"));
     std::map<std::string, uint64_t> good;
