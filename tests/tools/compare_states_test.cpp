@@ -235,7 +235,7 @@ TEST(FailingPrefix, FailsAgainWhenItIsPlayed) {
   ASSERT_LT(failed.events, run.events);
 
   const std::string path = folder.path("failing.txt");
-  ASSERT_TRUE(write_prefix(open, kSensor, failed.events, path).ok());
+  ASSERT_TRUE(write_prefix(open, kSensor, failed.events, path, OutputRule()).ok());
   const auto open_prefix = [&] { return open_events(path); };
   std::vector<Event> prefix(events.size());
   prefix.resize(*(*open_prefix())->read(prefix));
@@ -253,11 +253,12 @@ TEST(FailingPrefix, LeavesNoFileWhereItCannotBeWritten) {
   const auto no_recording = []() -> Result<std::unique_ptr<EventSource>> {
     return Error{ErrorCode::io, "gone"};
   };
-  EXPECT_EQ(write_prefix(no_recording, kSensor, 5, folder.path("a.txt")).error().message, "gone");
+  EXPECT_EQ(write_prefix(no_recording, kSensor, 5, folder.path("a.txt"), OutputRule()).error().message,
+            "gone");
   const auto outside = [&]() -> Result<std::unique_ptr<EventSource>> {
     return std::unique_ptr<EventSource>(std::make_unique<VectorSource>(random_events(50, kSensor), kSensor));
   };
-  EXPECT_FALSE(write_prefix(outside, {1, 1}, 50, folder.path("a.txt")).ok());
+  EXPECT_FALSE(write_prefix(outside, {1, 1}, 50, folder.path("a.txt"), OutputRule()).ok());
   EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
 }
 

@@ -75,7 +75,8 @@ TEST_F(Copies, TellWhatIsLostAndChanged) {
   std::ofstream(path("outside.txt")) << "64 48\n0.1 3 4 1\n0.2 64 4 1\n";
   EXPECT_THAT(run("convert --overwrite " + path("outside.txt") + " " + path("a.raw")).out,
               HasSubstr("lost: 1 events outside the sensor"));
-  EXPECT_EQ(run("convert " + path("outside.txt") + " " + path("a.raw") + " --out-of-sensor error").exit_code,
+  EXPECT_EQ(run("convert " + path("outside.txt") + " " + path("a.raw") + " --overwrite --out-of-sensor error")
+                .exit_code,
             1);
 }
 
