@@ -28,15 +28,22 @@ Result<int> frames(const FramesOptions& options, const OutputRule& rule) {
   // Nothing is made for a recording without frames.
   auto frame = (*source)->read();
   if (!frame) return frame.error();
+  const PassedFrames& passed = (*source)->passed_over();
+  const auto passed_over = [&] {
+    return text(passed.count, " frames or broken places were passed over; the first at byte ",
+                passed.first->byte, ": ", passed.first->what);
+  };
+  if (!*frame && passed.count > 0) {
+    return Error{ErrorCode::bad_input, text(options.file, ": no frame was read: ", passed_over())};
+  }
   if (!*frame && !options.allow_empty) {
     return Error{ErrorCode::bad_input,
                  text(options.file, ": it holds no frame; if that is right, give --allow-empty")};
   }
   auto folder = PictureFolder::create(options.output, {kName}, rule);
   if (!folder) return folder.error();
-  uint64_t index = 0;
   std::string list = "index,t_us,exposure_begin_us,exposure_end_us\n";
-  for (; *frame; ++index) {
+  for (uint64_t index = 0; *frame; ++index) {
     const GreyFrame& f = **frame;
     if (auto r = folder->write(kName, index, as_picture(f.image)); !r) return r.error();
     list += text(index, ",", f.t, ",", f.exposure_begin, ",", f.exposure_end, "\n");
@@ -47,12 +54,7 @@ Result<int> frames(const FramesOptions& options, const OutputRule& rule) {
     return frame.error();
   }
   if (auto r = folder->finish(list); !r) return r.error();
-  const PassedFrames& passed = (*source)->passed_over();
-  if (passed.count == 0) return 0;
-  const std::string what = text(passed.count, " frames or broken places were passed over; the first at byte ",
-                                passed.first->byte, ": ", passed.first->what);
-  if (index == 0) return Error{ErrorCode::bad_input, text(options.file, ": no frame was read: ", what)};
-  std::cout << "lost: " << what << "\n";
+  if (passed.count > 0) std::cout << "lost: " << passed_over() << "\n";
   return 0;
 }
 

@@ -332,11 +332,12 @@ Result<void> OutputFile::publish() {
     if (fchmod(descriptor_, old.st_mode & kPermissions) != 0) return failed("write", path_);
   }
   if (!synced(descriptor_)) return failed("write", path_);
+  const std::string folder = folder_of(path_);  // behind the renaming nothing may throw
   const auto moved = replaces ? rename_over(name_, path_) : rename_to_free_name(name_, path_);
   if (!moved) return moved;
   temporary_.forget();
   if (close(std::exchange(descriptor_, -1)) != 0) return failed("write", path_);
-  return sync_folder(folder_of(path_));
+  return sync_folder(folder);
 }
 
 Result<ScratchFolder> ScratchFolder::create(const std::string& path) {

@@ -108,26 +108,26 @@ std::string with_jump(int64_t seconds) {
 TEST_F(Program, AJumpThatWouldFloodTheOutputEndsTheJobAndNothingIsWritten) {
   fs::create_directory(path("made"));
   write_text(path("jump.csv"), with_jump(3000));
-  for (const char* output : {"out/frames", "out/a.npy", "out/a.mp4", "out/a.h5"}) {
+  for (const char* output : {"made/frames", "made/a.npy", "made/a.mp4", "made/a.h5"}) {
     for (const char* machine : {" --cpu", ""}) {
       const Outcome outcome = run("render " + path("jump.csv") + machine + " -o " + path(output));
       EXPECT_EQ(outcome.exit_code, 1) << output;
       EXPECT_THAT(outcome.err, AllOf(HasSubstr("--max-frames"), HasSubstr("event 100 (t 3000100000 us)")))
           << output;
-      if (fs::is_directory(path("out/frames"))) {
-        EXPECT_TRUE(fs::is_empty(path("out/frames")));
-        fs::remove(path("out/frames"));
+      if (fs::is_directory(path("made/frames"))) {
+        EXPECT_TRUE(fs::is_empty(path("made/frames")));
+        fs::remove(path("made/frames"));
       }
       EXPECT_TRUE(fs::is_empty(path("made"))) << output;
     }
   }
   // As many as the user wants, and a pause is none.
   write_text(path("pause.csv"), with_jump(20));
-  EXPECT_THAT(run("render --cpu " + path("pause.csv") + " -o " + path("out/a.npy")).out,
+  EXPECT_THAT(run("render --cpu " + path("pause.csv") + " -o " + path("made/a.npy")).out,
               HasSubstr("rendered 605 frames"));
-  EXPECT_EQ(run("render --cpu " + path("pause.csv") + " --max-frames 500 -o " + path("out/b.npy")).exit_code,
+  EXPECT_EQ(run("render --cpu " + path("pause.csv") + " --max-frames 500 -o " + path("made/b.npy")).exit_code,
             1);
-  EXPECT_EQ(run("render --cpu " + path("pause.csv") + " --max-frames 700 -o " + path("out/b.npy")).exit_code,
+  EXPECT_EQ(run("render --cpu " + path("pause.csv") + " --max-frames 700 -o " + path("made/b.npy")).exit_code,
             0);
 }
 

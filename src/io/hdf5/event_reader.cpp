@@ -1,6 +1,7 @@
 // Events of HDF5 files, in any of the layouts.
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -269,6 +270,8 @@ Result<Found> find(const Handle& file, Family family, const ReadOptions& options
 bool recognise(const std::string& path, Family family) {
   const Turn turn;
   const auto file = open_file(path);
+  // Else another format would be asked, which may take it for its own.
+  if (!file && file.error().code == ErrorCode::out_of_memory) throw std::bad_alloc();
   // What could not be read is no reason to take it for another format; open() says what is wrong.
   return file ? find_layout(*file, family) != nullptr || !check_reading(*file)
               : file.error().code == ErrorCode::io;

@@ -46,7 +46,8 @@ Result<std::shared_ptr<DriverFile>> DriverFile::open(const std::string& path) {
 
 Result<void> DriverFile::check() const {
   if (failure_ == 0) return {};
-  return Error{ErrorCode::io, text(task_, ": ", std::generic_category().message(failure_))};
+  return Error{failure_ == ENOMEM ? ErrorCode::out_of_memory : ErrorCode::io,
+               text(task_, ": ", std::generic_category().message(failure_))};
 }
 
 Error DriverFile::error(const std::string& what) const {
@@ -136,7 +137,11 @@ H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
   const auto* const properties = static_cast<const Properties*>(H5Pget_driver_info(access));
   if (properties == nullptr) return nullptr;
   auto* const file = new (std::nothrow) OpenFile{};
-  if (file != nullptr) file->file = *properties->file;
+  if (file != nullptr) {
+    file->file = *properties->file;
+  } else {
+    (*properties->file)->fail(ENOMEM);
+  }
   return file;
 }
 

@@ -29,6 +29,8 @@ class DriverFile {
 
   /// Errors: io, the first thing that went wrong.
   Result<void> check() const;
+  /// Remembers an errno, unless there is one already.
+  void fail(int number);
   /// Of a call of libhdf5 that failed: what check() says; else `what`, and why libhdf5 refused.
   Error error(const std::string& what) const;
   /// Waits until all of it is on the disk, and closes the file. Errors: as check().
@@ -48,8 +50,6 @@ class DriverFile {
     uint64_t at;
     std::vector<uint8_t> bytes;
   };
-
-  void fail(int number);
 
   FileDescriptor file_;
   std::string task_;  // "cannot write NAME"

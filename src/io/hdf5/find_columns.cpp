@@ -140,9 +140,8 @@ Result<FieldPlace> place_named(const Handle& file, const NamedColumn& named) {
     }
   }
   const auto columns = contents_of(file).columns;
-  return bad(
-      text("has no dataset ", named.name, " of --columns; ",
-           columns.empty() ? "it holds no columns of numbers" : text("it holds ", list_of(columns))));
+  return bad(text("has no dataset ", named.name, " of --columns; ",
+                  columns.empty() ? "it holds no columns of numbers" : text("it holds ", list_of(columns))));
 }
 
 Result<EventPlaces> events_named(const Handle& file, const ReadOptions& options) {
