@@ -132,7 +132,7 @@ Result<ReplayPlan> make_replay_plan(const Geometry& geometry, ReplayPixels pixel
 }
 
 std::vector<layout::ReplayChunk> cut_group(const ReplayPlan& plan, uint32_t events,
-                                   std::span<const uint32_t> frames) {
+                                           std::span<const uint32_t> frames) {
   // Intervals are cut into runs of this length, so there are at most events / length + frames + 1 chunks.
   const uint32_t length = std::min(ceil_div(std::max(events, 1u), plan.target_chunks), plan.max_chunk_events);
   std::vector<layout::ReplayChunk> chunks;

@@ -65,6 +65,7 @@ Result<ReplayPlan> make_replay_plan(const Geometry& geometry, ReplayPixels pixel
 
 /// Cuts a group of `events` events whose frames come after the given numbers of events (ascending). Behind
 /// the chunks is a last entry that begins where they end.
-std::vector<layout::ReplayChunk> cut_group(const ReplayPlan& plan, uint32_t events, std::span<const uint32_t> frames);
+std::vector<layout::ReplayChunk> cut_group(const ReplayPlan& plan, uint32_t events,
+                                           std::span<const uint32_t> frames);
 
 }  // namespace scarf

@@ -170,7 +170,8 @@ TEST_F(Encoders, EventsOfScarf) {
   const SensorSize sensor = {64, 48};
   const Geometry geometry = *make_geometry(Preset::light, sensor);
   vulkan::Device& device = context_->vulkan();
-  const Plan plan = test::value_of(make_plan(geometry, make_levels(0.3, geometry.capacity)->u8, device.limits(), {}));
+  const Plan plan =
+      test::value_of(make_plan(geometry, make_levels(0.3, geometry.capacity)->u8, device.limits(), {}));
   const auto scarf =
       test::value_of(ScarfPipeline::create(device, geometry, *make_levels(0.3, geometry.capacity), plan));
   const auto events = make_stream(Spread::moving_edge, sensor, 6000, 6);
