@@ -1,11 +1,11 @@
 // The three arrays of EV-IMO2; the first three bytes say how many of the others belong to each.
 #include "fuzz_reader.h"
-#include "scratch_folder.h"
+#include "input_folder.h"
 #include "tests/support/archive_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 3) return 0;
-  static const scarf::ScratchFolder folder;
+  static const scarf::InputFolder folder;
   std::span<const uint8_t> rest(data + 3, size - 3);
   const auto part = [&](const std::string& file, const std::string& type, const std::string& shape,
                         uint8_t share) {

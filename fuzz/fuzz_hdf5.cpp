@@ -2,7 +2,7 @@
 #include <array>
 
 #include "fuzz_reader.h"
-#include "scratch_folder.h"
+#include "input_folder.h"
 
 // libhdf5 forgets memory of files that it refuses.
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT: the sanitizer's name
@@ -10,7 +10,7 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT: the sanitizer
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const scarf::ScratchFolder folder;
+  static const scarf::InputFolder folder;
   const std::string file = folder.put("events.h5", {data, size});
   std::array<scarf::ReadOptions, 3> options;
   options[1].stream = "left";

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "fuzz_reader.h"
-#include "scratch_folder.h"
+#include "input_folder.h"
 #include "tools/reprocess/manifest.h"
 #include "tools/reprocess/recipe.h"
 
@@ -20,7 +20,7 @@ void lay_over(Settings& settings, const Settings& more) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace scarf;
-  static const ScratchFolder folder;
+  static const InputFolder folder;
   const std::string content(reinterpret_cast<const char*>(data), size);
   const auto recipe = tools::reprocess::parse_recipe(content, "recipe.toml");
   if (recipe) {

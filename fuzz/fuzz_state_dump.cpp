@@ -1,10 +1,10 @@
 // Dumps of states: any bytes are patches whose events belong to them, or an error.
 #include "fuzz_reader.h"
-#include "scratch_folder.h"
+#include "input_folder.h"
 #include "tools/state_dump.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const scarf::ScratchFolder folder;
+  static const scarf::InputFolder folder;
   auto dump = scarf::tools::StateDump::open(folder.put("state", {data, size}));
   if (!dump) return 0;
   for (int64_t patch = 0; patch < dump->geometry().patches(); ++patch) {

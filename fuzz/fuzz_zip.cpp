@@ -2,7 +2,7 @@
 #include <string>
 
 #include "fuzz_reader.h"
-#include "scratch_folder.h"
+#include "input_folder.h"
 #include "tests/support/archive_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     default:
       archive.insert(archive.begin(), {'P', 'K', 3, 4});
   }
-  static const scarf::ScratchFolder folder;
+  static const scarf::InputFolder folder;
   const std::string file = folder.put("archive", archive);
   scarf::check_path(file);
   scarf::read_frames(scarf::open_frames(file));

@@ -12,20 +12,20 @@
 
 namespace scarf {
 
-class ScratchFolder {
+class InputFolder {
  public:
-  ScratchFolder() {
+  InputFolder() {
     const char* const place = std::getenv("TMPDIR");
     path_ = std::filesystem::path(place != nullptr ? place : "/dev/shm") /
             ("scarf_fuzz_" + std::to_string(getpid()));
     std::filesystem::create_directories(path_);
   }
-  ~ScratchFolder() {
+  ~InputFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  InputFolder(const InputFolder&) = delete;
+  InputFolder& operator=(const InputFolder&) = delete;
 
   std::string path() const { return path_.string(); }
 
