@@ -87,6 +87,10 @@ TEST_F(RecipeFile, MistakesNameTheLineAndTheSetting) {
 TEST_F(RecipeFile, IsARegularFileOfText) {
   EXPECT_THAT(error_of(std::string("[\0\0", 3)), HasSubstr("line 1"));
   EXPECT_THAT(error_of("[%"), HasSubstr("line 1"));
+  // Outside strings and comments TOML is ASCII.
+  EXPECT_THAT(error_of("\n\xEF\xBB\xBE"), HasSubstr("line 2"));
+  EXPECT_THAT(error_of("rate = 30 # \xEF\xB8\x8F\nmatch = \"\\\"\xC3\xA9\" \xC3\xA9"), HasSubstr("line 2"));
+  EXPECT_THAT(error_of("a = '''\n\xC3\xA9'''\n\xC3\xA9"), HasSubstr("line 3"));
   EXPECT_THAT(read_recipe("/dev/zero").error().message, HasSubstr("it is a device"));
   EXPECT_THAT(read_recipe(testing::TempDir()).error().message, HasSubstr("it is a folder"));
 }
