@@ -21,13 +21,68 @@ constexpr std::string_view kRules = "input";
 constexpr std::string_view kMatch = "match";
 constexpr size_t kMaxRecipe = size_t{16} << 20;  // bytes
 
+// Blanks of other scripts are looked for by toml++ 3.3 wherever blanks may be, and what it does at some
+// characters that are none (U+FEFE, but U+00E9 too) is not defined. All are above those if each byte becomes
+// a character of plane 15.
+std::string veiled(std::string_view utf8) {
+  std::string ascii_and_plane_15;
+  for (const char c : utf8) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      ascii_and_plane_15 += c;
+    } else {
+      ascii_and_plane_15 +=
+          {'\xF3', '\xB0', static_cast<char>(0x80 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3F))};
+    }
+  }
+  return ascii_and_plane_15;
+}
+
+std::string unveiled(std::string_view veiled) {
+  std::string utf8;
+  for (size_t at = 0; at < veiled.size();) {
+    const std::string_view rest = veiled.substr(at);
+    if (rest.size() > 3 && (rest.starts_with("\xF3\xB0\x82") || rest.starts_with("\xF3\xB0\x83"))) {
+      utf8 += static_cast<char>((rest[2] & 3) << 6 | (rest[3] & 0x3F));
+      at += 4;
+    } else {
+      utf8 += rest.front();
+      ++at;
+    }
+  }
+  return utf8;
+}
+
+// Well-formed, as Unicode's table 3-7 has it.
+bool is_utf8(std::string_view text) {
+  const auto byte = [&](size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0; };
+  for (size_t at = 0; at < text.size();) {
+    const int first = byte(at);
+    const size_t more = first < 0x80   ? 0
+                        : first < 0xC2 ? 4
+                        : first < 0xE0 ? 1
+                        : first < 0xF0 ? 2
+                        : first < 0xF5 ? 3
+                                       : 4;
+    if (more == 4) return false;
+    const int least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+    const int most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+    if (more > 0 && (byte(at + 1) < least || byte(at + 1) > most)) return false;
+    for (size_t i = 2; i <= more; ++i) {
+      if (byte(at + i) >> 6 != 2) return false;
+    }
+    at += 1 + more;
+  }
+  return true;
+}
+
 Error at_line(const std::string& path, const toml::source_region& source, const std::string& what) {
-  return {ErrorCode::illegal_parameter, text(path, " line ", source.begin.line, ": ", what)};
+  return {ErrorCode::illegal_parameter, text(path, " line ", source.begin.line, ": ", unveiled(what))};
 }
 
 // A value as the word that an option takes.
 std::optional<std::string> word_of(const toml::node& node) {
-  if (const auto value = node.value_exact<std::string>()) return *value;
+  if (const auto value = node.value_exact<std::string>()) return unveiled(*value);
   if (const auto value = node.value_exact<int64_t>()) return text(*value);
   if (const auto value = node.value_exact<double>()) return text(*value);
   if (const auto value = node.value_exact<bool>()) return *value ? "true" : "false";
@@ -59,7 +114,7 @@ Result<std::vector<std::string>> words_of(const std::string& path, std::string_v
 Result<Settings> settings_of(const std::string& path, const toml::table& table, std::string_view besides) {
   Settings settings;
   for (const auto& [key, node] : table) {
-    const std::string name(key.str());
+    const std::string name = unveiled(key.str());
     if (name == besides) continue;
     auto words = words_of(path, name, node);
     if (!words) return words.error();
@@ -77,47 +132,13 @@ Result<Recipe::Rule> rule_of(const std::string& path, const toml::node& node) {
   }
   auto settings = settings_of(path, *table, kMatch);
   if (!settings) return settings.error();
-  return Recipe::Rule{*match, *std::move(settings)};
+  return Recipe::Rule{unveiled(*match), *std::move(settings)};
 }
 
 // Whether the settings can be read, by themselves or on top of others.
 Result<void> check(const std::string& path, const toml::source_region& source, const Settings& settings) {
   const auto options = parse_settings(settings);
   return options ? Result<void>() : at_line(path, source, options.error().message);
-}
-
-// The first line with a character that is not ASCII outside strings and comments, where TOML has none.
-// toml++ 3.3 looks for blanks among these, and what it does at some of them (U+FEFE) is not defined.
-std::optional<size_t> stray_line(std::string_view content) {
-  if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3);  // a byte order mark
-  size_t line = 1;
-  std::string_view end;  // of the string or comment that is open
-  for (size_t at = 0; at < content.size();) {
-    const std::string_view rest = content.substr(at);
-    const char c = rest.front();
-    size_t taken = 1;
-    if (!end.empty()) {
-      if (c == '\\' && end.front() == '"' && rest.size() > 1 && rest[1] != '\n') {
-        taken = 2;
-      } else if (rest.starts_with(end) ||
-                 (c == '\n' && end.size() == 1)) {  // what may end in no other line is closed
-        taken = rest.starts_with(end) ? end.size() : 1;
-        end = {};
-      }
-    } else if (rest.starts_with("\"\"\"") || rest.starts_with("'''")) {
-      end = c == '"' ? "\"\"\"" : "'''";
-      taken = end.size();
-    } else if (c == '"' || c == '\'') {
-      end = c == '"' ? "\"" : "'";
-    } else if (c == '#') {
-      end = "\n";
-    } else if (static_cast<unsigned char>(c) >= 0x80) {
-      return line;
-    }
-    line += c == '\n' ? 1 : 0;
-    at += taken;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -145,11 +166,10 @@ Result<Recipe> read_recipe(const std::string& path) {
 }
 
 Result<Recipe> parse_recipe(const std::string& content, const std::string& path) {
-  if (const auto line = stray_line(content)) {
-    return Error{ErrorCode::illegal_parameter,
-                 text(path, " line ", *line, ": a character that TOML has in strings and comments only")};
-  }
-  const toml::parse_result parsed = toml::parse(content);
+  std::string_view body = content;
+  if (body.starts_with("\xEF\xBB\xBF")) body.remove_prefix(3);  // a byte order mark
+  if (!is_utf8(body)) return Error{ErrorCode::illegal_parameter, text(path, ": it is not text in UTF-8")};
+  const toml::parse_result parsed = toml::parse(veiled(body));
   if (!parsed) return at_line(path, parsed.error().source(), std::string(parsed.error().description()));
   const toml::table& table = parsed.table();
 
