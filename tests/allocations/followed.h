@@ -48,6 +48,22 @@ class Followed {
   void ask(Query query, bool compared = true) {
     answered(ours([&] { return query(tested_).wait(); }), query, compared);
   }
+  /// Two queries in flight, the first of which is dropped.
+  template <class First, class Second>
+  void ask_both(First first, Second second, bool compared = true) {
+    const auto answer = ours([&] {
+      const auto dropped = first(tested_);
+      return second(tested_).wait();
+    });
+    if (!answer) {
+      // Of two that change the state, each goes on from where the other ended: perhaps the first alone was
+      // done.
+      return failed(answer.error(),
+                    {[&] { (void)first(reference_).wait(); }, [&] { (void)second(reference_).wait(); }});
+    }
+    (void)first(reference_).wait();
+    answered(answer, second, compared);
+  }
   /// The answer of a query.
   template <class Answer, class Query>
   void answered(const Answer& answer, Query query, bool compared = true) {
@@ -57,7 +73,7 @@ class Followed {
       return;
     }
     // The answer may have got lost behind a change that asking makes.
-    if (!answer) return failed(answer.error(), [&] { (void)of_reference(); });
+    if (!answer) return failed(answer.error(), {[&] { (void)of_reference(); }});
     EXPECT_FALSE(broken_) << "a broken stream answered";
     const auto expected = of_reference();
     ASSERT_TRUE(expected) << expected.error().message;
@@ -93,13 +109,17 @@ class Followed {
   }
 
  private:
-  void failed(const Error& error, const std::function<void()>& otherwise = {}) {
+  // `otherwise`: what may have been done nevertheless, in this order.
+  void failed(const Error& error, const std::vector<std::function<void()>>& otherwise = {}) {
     if (broken_) return;  // as it said
     expect_lack(error);
     const auto state = tested_.state().wait();
     broken_ = !state;
     if (broken_) return;
-    if (*state != value_of(reference_.state()) && otherwise) otherwise();
+    for (const auto& done : otherwise) {
+      if (*state == value_of(reference_.state())) break;
+      done();
+    }
     EXPECT_TRUE(*state == value_of(reference_.state())) << "something else was stored than what was reported";
   }
 
