@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "bench/push.h"
-#include "gpu/pipeline_builder.h"
-#include "shaders/layout.h"
-#include "shaders/shaders.h"
+#include "compiled_shaders/shaders.h"
+#include "kernels/pipeline_builder.h"
+#include "shaders/common/layout.h"
 #include "vulkan/commands.h"
 
 namespace scarf::bench {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scarf/simulate.h"
+#include "scarf/simulate/simulate.h"
 
 namespace scarf::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/ceilings.h"
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 
 namespace scarf::bench {
 

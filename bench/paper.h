@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "bench/endless.h"
-#include "scarf/parameters.h"
-#include "scarf/representation.h"
+#include "scarf/core/parameters.h"
+#include "scarf/core/representation.h"
 
 namespace scarf::bench {
 

@@ -7,7 +7,7 @@
 
 #include "bench/paper.h"
 #include "bench/plot.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::bench {
 

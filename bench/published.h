@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "scarf/event.h"
+#include "scarf/core/event.h"
 
 namespace scarf::bench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 
 namespace scarf::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scarf/representation.h"
+#include "scarf/core/representation.h"
 
 namespace scarf::bench {
 

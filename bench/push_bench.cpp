@@ -3,8 +3,8 @@
 
 #include "bench/push.h"
 #include "bench/scenes.h"
-#include "scarf/gpu.h"
-#include "scarf/reference.h"
+#include "scarf/device/stream.h"
+#include "scarf/reference/reference.h"
 
 namespace scarf::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "scarf/io.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf::bench {
 

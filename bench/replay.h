@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scarf/replay.h"
+#include "scarf/device/replay.h"
 
 namespace scarf::bench {
 

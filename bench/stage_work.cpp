@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shaders/layout.h"
+#include "shaders/common/layout.h"
 
 namespace scarf::bench {
 namespace {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scarf/event.h"
-#include "scarf/geometry.h"
-#include "scarf/plan.h"
+#include "pipelines/scarf/plan.h"
+#include "scarf/core/event.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf::bench {
 

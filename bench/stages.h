@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/stage_work.h"
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 
 namespace scarf::bench {
 

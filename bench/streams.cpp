@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bench/push.h"
-#include "scarf/gpu_group.h"
+#include "scarf/device/group.h"
 
 namespace scarf::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/scenes.h"
-#include "scarf/geometry.h"
-#include "scarf/gpu.h"
+#include "scarf/core/patch_grid.h"
+#include "scarf/device/stream.h"
 
 namespace scarf::bench {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/aedat4.h"
+#include "io/aedat/aedat4.h"
 
 #if SCARF_HDF5
 #include "io/hdf5/event_table.h"

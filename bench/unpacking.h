@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "scarf/io.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf::bench {
 

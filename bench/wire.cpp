@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/event_packer.h"
+#include "layout/event_packer.h"
 
 namespace scarf::bench {
 namespace {

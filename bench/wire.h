@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "scarf/event.h"
-#include "scarf/result.h"
+#include "scarf/core/event.h"
+#include "scarf/core/result.h"
 
 namespace scarf::bench {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "scarf/event.h"
+#include "scarf/core/event.h"
 
 namespace scarf {
 

@@ -1,5 +1,5 @@
 // Encodings of sparse events: what they have in common.
-#include "scarf/encoding.h"
+#include "scarf/core/encoding.h"
 
 #include <algorithm>
 

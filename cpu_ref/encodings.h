@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/encoding_tables.h"
-#include "scarf/encoding.h"
+#include "scarf/core/encoding.h"
 
 namespace scarf {
 

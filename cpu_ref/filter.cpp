@@ -1,5 +1,5 @@
 // The noise filters, as defined in scarf/filter.h: one event after the other.
-#include "scarf/filter.h"
+#include "scarf/core/filter.h"
 
 #include <algorithm>
 #include <optional>

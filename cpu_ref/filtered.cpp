@@ -3,7 +3,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 
 namespace scarf {
 namespace {

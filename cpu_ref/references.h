@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "scarf/parameters.h"
-#include "scarf/representation.h"
+#include "scarf/core/parameters.h"
+#include "scarf/core/representation.h"
 
 namespace scarf {
 

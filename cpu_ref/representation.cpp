@@ -1,7 +1,7 @@
 // The reference of any representation.
 #include "core/sensor_check.h"
 #include "cpu_ref/references.h"
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 
 namespace scarf {
 namespace {

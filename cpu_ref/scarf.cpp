@@ -5,7 +5,7 @@
 
 #include "core/batch_check.h"
 #include "core/queries.h"
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 
 namespace scarf {
 namespace {

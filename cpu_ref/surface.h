@@ -13,7 +13,7 @@
 #include "core/batch_check.h"
 #include "core/event_bytes.h"
 #include "core/queries.h"
-#include "scarf/representation.h"
+#include "scarf/core/representation.h"
 
 namespace scarf {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 
 template <class T>
 T value_of(scarf::Result<T> result) {

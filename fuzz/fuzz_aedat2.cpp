@@ -1,5 +1,5 @@
 // Records of AEDAT 2, of a chip that the first byte chooses, or the header's lines as well; and of AEDAT 1.
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

@@ -1,5 +1,5 @@
 // Packets of AEDAT 3.1, or the header as well if the first byte is odd.
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "core/little_endian.h"
-#include "fuzz_reader.h"
-#include "io/aedat4.h"
+#include "fuzz/fuzz_reader.h"
+#include "io/aedat/aedat4.h"
 
 namespace {
 

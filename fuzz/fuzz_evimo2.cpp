@@ -1,6 +1,6 @@
 // The three arrays of EV-IMO2; the first three bytes say how many of the others belong to each.
-#include "fuzz_reader.h"
-#include "input_folder.h"
+#include "fuzz/fuzz_reader.h"
+#include "fuzz/input_folder.h"
 #include "tests/support/archive_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -1,5 +1,5 @@
 // The words of EVT2.1, in the byte order that the first byte says.
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const bool legacy = size > 0 && data[0] % 2 != 0;

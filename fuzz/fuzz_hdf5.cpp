@@ -1,8 +1,8 @@
 // Whole HDF5 files, with one of the options that layouts need, and their frames.
 #include <array>
 
-#include "fuzz_reader.h"
-#include "input_folder.h"
+#include "fuzz/fuzz_reader.h"
+#include "fuzz/input_folder.h"
 
 // libhdf5 forgets memory of files that it refuses.
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT: the sanitizer's name

@@ -1,5 +1,5 @@
 // Records of MCAP behind its magic.
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace std::string_view_literals;

@@ -2,7 +2,7 @@
 #include <array>
 #include <string>
 
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

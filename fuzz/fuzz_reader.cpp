@@ -1,12 +1,12 @@
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <utility>
 
-#include "io/format.h"
-#include "io/open.h"
+#include "io/base/format.h"
+#include "io/open/open.h"
 
 namespace scarf {
 namespace {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scarf/frames.h"
-#include "scarf/io.h"
+#include "scarf/io/frames.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf {
 

@@ -1,6 +1,6 @@
 // SQLite databases of ROS 2.
-#include "fuzz_reader.h"
-#include "input_folder.h"
+#include "fuzz/fuzz_reader.h"
+#include "fuzz/input_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const scarf::InputFolder folder;

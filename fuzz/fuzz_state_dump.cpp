@@ -1,7 +1,7 @@
 // Dumps of states: any bytes are patches whose events belong to them, or an error.
-#include "fuzz_reader.h"
-#include "input_folder.h"
-#include "tools/state_dump.h"
+#include "compare/state_dump.h"
+#include "fuzz/fuzz_reader.h"
+#include "fuzz/input_folder.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const scarf::InputFolder folder;

@@ -1,7 +1,7 @@
 // Text with columns, units, cameras and first lines of CSV; the first byte chooses among them.
 #include <array>
 
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

@@ -3,15 +3,15 @@
 #include <array>
 #include <map>
 
-#include "fuzz_reader.h"
-#include "io/columns.h"
-#include "scarf/encoding.h"
-#include "scarf/filter.h"
-#include "scarf/geometry.h"
-#include "scarf/parameters.h"
-#include "tools/batch_sizes.h"
-#include "tools/instants.h"
-#include "tools/parse.h"
+#include "core/parse.h"
+#include "fuzz/fuzz_reader.h"
+#include "io/base/columns.h"
+#include "scarf/core/encoding.h"
+#include "scarf/core/filter.h"
+#include "scarf/core/parameters.h"
+#include "scarf/core/patch_grid.h"
+#include "session/batch_sizes.h"
+#include "session/instants.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace scarf;

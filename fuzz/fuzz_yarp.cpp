@@ -1,5 +1,5 @@
 // Lines of YARP logs behind a first packet; the first byte chooses version and options.
-#include "fuzz_reader.h"
+#include "fuzz/fuzz_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;

@@ -1,8 +1,8 @@
 // Zip archives of arrays, text and images, and bytes that may be an archive; the first byte chooses.
 #include <string>
 
-#include "fuzz_reader.h"
-#include "input_folder.h"
+#include "fuzz/fuzz_reader.h"
+#include "fuzz/input_folder.h"
 #include "tests/support/archive_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

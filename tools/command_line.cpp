@@ -1,5 +1,6 @@
 #include "tools/command_line.h"
 
+#include "core/parse.h"
 #include "core/text.h"
 
 namespace scarf::tools {
@@ -10,10 +11,6 @@ Error empty(std::string_view option) {
 }
 
 }  // namespace
-
-bool is_blank(std::string_view word) {
-  return word.find_first_not_of(" \t\r\n\v\f") == word.npos;
-}
 
 Result<void> check_arguments(std::span<const char* const> arguments) {
   std::string_view before;

@@ -4,12 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::tools {
-
-/// Whether there is nothing but blanks.
-bool is_blank(std::string_view word);
 
 /// The arguments behind the program's name. An empty one is what an unset variable of a shell leaves, and no
 /// option and no name of a file takes it. Errors: illegal_parameter, naming the option.

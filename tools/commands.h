@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::tools {
 

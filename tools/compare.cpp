@@ -1,11 +1,11 @@
 // scarf compare: the first difference of two state dumps.
 #include <iostream>
 
+#include "compare/compare_states.h"
+#include "compare/state_dump.h"
 #include "core/text.h"
 #include "tools/commands.h"
-#include "tools/compare_states.h"
 #include "tools/file_options.h"
-#include "tools/state_dump.h"
 
 namespace scarf::tools {
 namespace {

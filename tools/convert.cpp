@@ -2,10 +2,10 @@
 #include <iostream>
 
 #include "core/text.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/output_format.h"
-#include "tools/read_options.h"
 #include "tools/recording_copy.h"
 
 namespace scarf::tools {
@@ -48,7 +48,7 @@ void add_convert(CLI::App& program, Command& command) {
   auto options = std::make_shared<ConvertOptions>();
   add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_copy_target(*app, options->target);
-  add_read_options(*app, options->read);
+  add_settings(*app, read_settings(options->read));
   app->callback([&command, app, options] {
     command.run = [app, options] { return convert(*options, output_rule(*app)); };
   });

@@ -3,12 +3,12 @@
 #include <limits>
 #include <optional>
 
+#include "core/parse.h"
 #include "core/text.h"
-#include "io/sensor_size.h"
+#include "io/base/sensor_size.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/options.h"
-#include "tools/parse.h"
-#include "tools/read_options.h"
 #include "tools/recording_copy.h"
 
 namespace scarf::tools {
@@ -184,7 +184,7 @@ void add_cut(CLI::App& program, Command& command) {
       "before each of them");
   add_parsed_option(*app, "--roi", options->region, parse_region,
                     "X,Y,WIDTH,HEIGHT: a region of the sensor, which becomes the sensor of the output");
-  add_read_options(*app, options->read);
+  add_settings(*app, read_settings(options->read));
   app->callback([&command, app, options] {
     command.run = [app, options] { return cut(*options, output_rule(*app)); };
   });

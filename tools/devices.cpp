@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "core/text.h"
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 #include "tools/commands.h"
 
 namespace scarf::tools {

@@ -1,21 +1,21 @@
 // scarf digest: the final state, image and stream of a recording as three lines of text.
-#include "scarf/digest.h"
+#include "scarf/digest/digest.h"
 
 #include <iostream>
 
+#include "compare/state_dump.h"
 #include "core/text.h"
+#include "session/play.h"
+#include "session/progress.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/options.h"
-#include "tools/play.h"
-#include "tools/progress.h"
-#include "tools/read_options.h"
-#include "tools/state_dump.h"
 
 namespace scarf::tools {
 namespace {
 
 struct DigestOptions {
-  StreamOptions stream;
+  StreamRequest stream;
   std::string dump;
 };
 
@@ -76,7 +76,7 @@ void add_digest(CLI::App& program, Command& command) {
   CLI::App* app =
       program.add_subcommand("digest", "SHA-256 of the final state, image and events of a recording");
   auto options = std::make_shared<DigestOptions>();
-  add_stream_options(*app, options->stream);
+  add_settings(*app, stream_settings(options->stream));
   add_output_option(*app, "--dump", options->dump, "File for the hashed state, for scarf compare");
   app->callback([&command, app, options] {
     command.run = [app, options] { return digest(*options, output_rule(*app)); };

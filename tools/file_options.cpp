@@ -21,24 +21,32 @@ CLI::Option* not_empty(CLI::Option* option) {
 
 }  // namespace
 
-CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::string& target,
-                              const std::string& help) {
-  return not_empty(app.add_option(name, target, help)->type_name(kInputType));
+CLI::Option* as_input(CLI::Option* option) {
+  return not_empty(option->type_name(kInputType));
 }
 
-CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::vector<std::string>& target,
-                              const std::string& help) {
-  return not_empty(app.add_option(name, target, help)->type_name(kInputType));
-}
-
-CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& target,
-                               const std::string& help) {
+CLI::Option* as_output(CLI::App& app, CLI::Option* option) {
   if (app.get_option_no_throw(kOverwrite) == nullptr) {
     app.add_flag(std::string(kOverwrite))
         ->description(
             "Replace files that are there; inputs, and files in folders that scarf did not write, never");
   }
-  return not_empty(app.add_option(name, target, help)->type_name(kOutputType));
+  return not_empty(option->type_name(kOutputType));
+}
+
+CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::string& target,
+                              const std::string& help) {
+  return as_input(app.add_option(name, target, help));
+}
+
+CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::vector<std::string>& target,
+                              const std::string& help) {
+  return as_input(app.add_option(name, target, help));
+}
+
+CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& target,
+                               const std::string& help) {
+  return as_output(app, app.add_option(name, target, help));
 }
 
 CLI::Option* add_word_option(CLI::App& app, const std::string& name, std::string& target,

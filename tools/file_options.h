@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/output_files.h"
+#include "io/files/output_files.h"
 
 namespace scarf::tools {
 
@@ -24,6 +24,9 @@ CLI::Option* add_input_option(CLI::App& app, const std::string& name, std::vecto
 /// A file or folder that is written. The sub-command gets --overwrite as well. Empty names are errors.
 CLI::Option* add_output_option(CLI::App& app, const std::string& name, std::string& target,
                                const std::string& help);
+/// Makes an option that exists one of these.
+CLI::Option* as_input(CLI::Option* option);
+CLI::Option* as_output(CLI::App& app, CLI::Option* option);
 /// Text that is neither.
 CLI::Option* add_word_option(CLI::App& app, const std::string& name, std::string& target,
                              const std::string& help);

@@ -2,7 +2,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 #include "tools/commands.h"
 
 namespace scarf::tools {

@@ -1,13 +1,14 @@
 // scarf frames: the greyscale frames that a recording holds beside its events.
-#include "scarf/frames.h"
+#include "scarf/io/frames.h"
 
 #include <iostream>
 
 #include "core/text.h"
+#include "output/pictures.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"
-#include "tools/pictures.h"
-#include "tools/read_options.h"
+#include "tools/options.h"
 
 namespace scarf::tools {
 namespace {
@@ -45,7 +46,7 @@ Result<int> frames(const FramesOptions& options, const OutputRule& rule) {
   std::string list = "index,t_us,exposure_begin_us,exposure_end_us\n";
   for (uint64_t index = 0; *frame; ++index) {
     const GreyFrame& f = **frame;
-    if (auto r = folder->write(kName, index, as_picture(f.image)); !r) return r.error();
+    if (auto r = folder->write(kName, index, f.image); !r) return r.error();
     list += text(index, ",", f.t, ",", f.exposure_begin, ",", f.exposure_end, "\n");
     frame = (*source)->read();
     if (frame) continue;
@@ -70,8 +71,8 @@ void add_frames(CLI::App& program, Command& command) {
       "Folder for PNG frames and their list frames.csv; with --overwrite those of an earlier run "
       "are replaced")
       ->required();
-  add_read_options(*app, options->read);
-  add_allow_empty(*app, options->allow_empty);
+  add_settings(*app, read_settings(options->read));
+  add_settings(*app, empty_settings(options->allow_empty));
   app->callback([&command, app, options] {
     command.run = [app, options] { return frames(*options, output_rule(*app)); };
   });

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "core/text.h"
-#include "scarf/digest.h"
+#include "scarf/digest/digest.h"
+#include "session/play.h"
+#include "session/progress.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"
-#include "tools/play.h"
-#include "tools/progress.h"
-#include "tools/read_options.h"
+#include "tools/options.h"
 #ifdef SCARF_PICTURES
-#include "tools/reprocess/job_list.h"
+#include "reprocess/job_list.h"
 #endif
 
 namespace scarf::tools {
@@ -271,7 +272,7 @@ void add_info(CLI::App& program, Command& command) {
       "Recordings, - for standard input, and folders of recordings; of those in folders, what is no "
       "recording is left out")
       ->required();
-  add_read_options(*app, options->read);
+  add_settings(*app, read_settings(options->read));
   app->add_flag("--digest", options->digest, "Also the SHA-256 of the decoded events");
   app->add_flag("--json", options->json, "As JSON: an object, and of several recordings one with a list");
   app->callback([&command, options] { command.run = [options] { return info(*options); }; });

@@ -8,10 +8,12 @@
 #include <span>
 #include <string>
 
-#include "io/temporaries.h"
+#include "io/files/temporaries.h"
+#include "scarf/version.h"
 #include "tools/command_line.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"
+#include "tools/options.h"
 
 namespace {
 
@@ -38,7 +40,7 @@ int run(const scarf::tools::Command& command, const CLI::App& app) {
   const auto exit_code = command.run();
   if (!exit_code) {
     const bool usage = exit_code.error().code == scarf::ErrorCode::illegal_parameter;
-    return report(exit_code.error().message, usage ? kBadUsage : kFailed);
+    return report(scarf::tools::in_options(exit_code.error().message), usage ? kBadUsage : kFailed);
   }
   return finished(*exit_code);
 }
@@ -63,7 +65,7 @@ int main(int argc, char** argv) {
   occupy_closed_streams();
   scarf::remove_temporaries_on_signals();
   CLI::App program("Event-camera streams to velocity-invariant pictures", "scarf");
-  program.set_version_flag("--version", "scarf " SCARF_VERSION);
+  program.set_version_flag("--version", std::string("scarf ") + scarf::version_text());
   program.require_subcommand(0, 1);
   scarf::tools::Command command;
   scarf::tools::add_commands(program, command);

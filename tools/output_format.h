@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::tools {
 

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "core/text.h"
-#include "io/format.h"
-#include "scarf/digest.h"
-#include "scarf/frames.h"
+#include "io/base/format.h"
+#include "scarf/digest/digest.h"
+#include "scarf/io/frames.h"
+#include "session/play.h"
+#include "session/progress.h"
+#include "session/request.h"
 #include "tools/file_options.h"
+#include "tools/options.h"
 #include "tools/output_format.h"
-#include "tools/play.h"
-#include "tools/progress.h"
-#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
@@ -195,7 +196,7 @@ void add_copy_target(CLI::App& app, CopyTarget& target) {
   add_word_option(app, "--output-format", target.format,
                   "Format of the output, where its name does not tell; see scarf formats");
   app.add_flag("--check", target.check, "Read the output again and compare it with what was written");
-  add_allow_empty(app, target.allow_empty);
+  add_settings(app, empty_settings(target.allow_empty));
 }
 
 std::ostream& remarks(const CopyTarget& target) {

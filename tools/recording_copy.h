@@ -7,8 +7,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "io/output_files.h"
-#include "scarf/io.h"
+#include "io/files/output_files.h"
+#include "scarf/io/recordings.h"
 #include "tools/trigger_copy.h"
 
 namespace scarf::tools {

@@ -4,32 +4,34 @@
 #include <iostream>
 
 #include "core/text.h"
-#include "scarf/reference.h"
+#include "output/frame_request.h"
+#include "output/frame_writer.h"
+#include "output/product_request.h"
+#include "output/products.h"
+#include "output/renderer.h"
+#include "scarf/reference/reference.h"
+#include "session/device_words.h"
+#include "session/play.h"
+#include "session/progress.h"
+#include "session/request.h"
 #include "tools/commands.h"
-#include "tools/device_words.h"
-#include "tools/frame_options.h"
-#include "tools/frame_writer.h"
 #include "tools/memory.h"
 #include "tools/options.h"
-#include "tools/play.h"
-#include "tools/product_options.h"
-#include "tools/products.h"
-#include "tools/progress.h"
-#include "tools/read_options.h"
-#include "tools/renderer.h"
 
 namespace scarf::tools {
 namespace {
+
+const std::string kAllRepresentations = "all";  // each of representations(), with its defaults
 
 constexpr int64_t kDefaultWindow = 33;   // milliseconds: one frame at 30 Hz
 constexpr int64_t kMaxWindow = 100'000;  // milliseconds
 
 struct RenderOptions {
-  StreamOptions stream;
+  StreamRequest stream;
   std::string output;
-  FrameOptions frames;
+  FrameRequest frames;
   std::optional<int64_t> window;
-  ProductOptions products;
+  ProductRequest products;
   bool decode_on_device = false;
 };
 
@@ -76,7 +78,7 @@ struct Choice {
 Result<Choice> choose(const RenderOptions& options, SensorSize sensor) {
   Choice choice;
   for (const RepresentationInfo& info : representations()) {
-    StreamOptions one = options.stream;
+    StreamRequest one = options.stream;
     if (one.representation == kAllRepresentations) one.representation = info.name;
     if (one.representation != info.name) continue;
     auto made = make_implementation(one, sensor);
@@ -145,7 +147,7 @@ Result<uint64_t> render_words(const RenderOptions& options, const std::vector<Sh
 // Many frames of a file can be computed at the same time; those of a pipe are wanted one by one.
 bool can_be_replayed(const RenderOptions& options, OutputKind kind) {
   std::error_code ignored;
-  const StreamOptions& s = options.stream;
+  const StreamRequest& s = options.stream;
   const bool many = kind != OutputKind::image && options.frames.at.empty();
   const bool pictures = !options.products.special() && !options.window;
   return many && pictures && s.representation == "scarf" && !s.cpu && s.filters.empty() &&
@@ -236,15 +238,16 @@ Result<int> render(const RenderOptions& options, const OutputRule& rule) {
 void add_render(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("render", "Pictures of a recording");
   auto options = std::make_shared<RenderOptions>();
-  add_stream_options(*app, options->stream, {kAllRepresentations});
+  add_settings(*app, stream_settings(options->stream, {kAllRepresentations}));
   add_decode_option(*app, options->decode_on_device);
   add_output_option(
       *app, "-o,--output", options->output,
       "A folder of PNG frames with their list frames.csv; a video (.mp4, .avi); an array of "
       "frames (.npy with the list NAME.csv beside it, .h5); or one image of the end (.png, .pgm)")
       ->required();
-  add_product_options(*app, options->products, "File for the sparse events of each frame (.h5, .npz)");
-  add_frame_options(*app, options->frames);
+  add_settings(*app,
+               product_settings(options->products, "File for the sparse events of each frame (.h5, .npz)"));
+  add_settings(*app, frame_settings(options->frames));
   app->add_option_function<int64_t>(
          "--compare-window", [options](int64_t milliseconds) { options->window = milliseconds; },
          "Beside each frame: the events of the last MS milliseconds, default 33")

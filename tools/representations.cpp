@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "core/text.h"
-#include "scarf/parameters.h"
+#include "scarf/core/parameters.h"
 #include "tools/commands.h"
 
 namespace scarf::tools {

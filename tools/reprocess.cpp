@@ -7,21 +7,22 @@
 #include <thread>
 
 #include "core/text.h"
-#include "io/new_file.h"
+#include "io/files/new_file.h"
+#include "output/frame_writer.h"
+#include "output/owned_files.h"
+#include "reprocess/job_list.h"
+#include "reprocess/mpi_crew.h"
+#include "reprocess/recipe.h"
+#include "reprocess/result_place.h"
+#include "reprocess/run.h"
+#include "reprocess/sample.h"
+#include "reprocess/shard.h"
+#include "reprocess/summary.h"
+#include "reprocess/terminal_display.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"
-#include "tools/frame_writer.h"
-#include "tools/owned_files.h"
-#include "tools/read_options.h"
-#include "tools/reprocess/job_list.h"
-#include "tools/reprocess/mpi_crew.h"
-#include "tools/reprocess/recipe.h"
-#include "tools/reprocess/result_place.h"
-#include "tools/reprocess/run.h"
-#include "tools/reprocess/sample.h"
-#include "tools/reprocess/shard.h"
-#include "tools/reprocess/summary.h"
-#include "tools/reprocess/terminal_display.h"
+#include "tools/options.h"
 
 namespace scarf::tools {
 namespace {
@@ -46,7 +47,7 @@ struct ReprocessOptions {
   bool allow_empty = false;
   std::optional<double> verify;
   std::optional<uint64_t> seed;
-  StreamOptions work;  // batches and device
+  StreamRequest work;  // batches and device
 };
 
 Error illegal(const std::string& message) {
@@ -289,13 +290,13 @@ void add_reprocess(CLI::App& program, Command& command) {
       *app, "--max-frames", options->max_frames, parse_positive,
       "Most frames of a rate in a row without an event between them, default 10000; instead of what "
       "the recipe says");
-  add_allow_empty(*app, options->allow_empty);
+  add_settings(*app, empty_settings(options->allow_empty));
   add_parsed_option(*app, "--verify", options->verify, parse_share,
                     "Compute this share of the recordings, 0 to 1, again on the CPU reference and compare");
   add_parsed_option(*app, "--seed", options->seed, parse_whole<uint64_t>,
                     "Which recordings --verify takes; default: random");
   app->add_flag("--json", options->json, "The summary as JSON");
-  add_work_options(*app, options->work);
+  add_settings(*app, work_settings(options->work));
   app->callback([&command, app, options] {
     command.run = [app, options] {
       options->overwrite = output_rule(*app).overwrite();

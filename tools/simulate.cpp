@@ -1,19 +1,19 @@
 // scarf simulate: the recording of a simulated event camera, and what it should show.
-#include "scarf/simulate.h"
+#include "scarf/simulate/simulate.h"
 
 #include <filesystem>
 #include <iostream>
 #include <optional>
 
+#include "core/parse.h"
 #include "core/text.h"
-#include "io/format.h"
-#include "scarf/io.h"
+#include "io/base/format.h"
+#include "output/pictures.h"
+#include "scarf/io/recordings.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"
 #include "tools/options.h"
 #include "tools/output_format.h"
-#include "tools/parse.h"
-#include "tools/pictures.h"
 
 namespace scarf::tools {
 namespace {
@@ -40,7 +40,7 @@ Result<void> write_truth(const SimulateOptions& options, const Simulation& simul
     const auto t = static_cast<int64_t>(static_cast<double>(i) * 1e6 / options.truth_rate);
     if (t > simulation.duration()) break;
     const auto write = [&](std::string_view name, const Image<uint8_t>& image) {
-      return folder.write(name, static_cast<uint64_t>(i), as_picture(image));
+      return folder.write(name, static_cast<uint64_t>(i), image);
     };
     if (auto r = write(kFrame, simulation.frame(t)); !r) return r;
     if (auto r = write(kEdges, simulation.edges(t)); !r) return r;

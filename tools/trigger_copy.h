@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "scarf/digest.h"
-#include "scarf/frames.h"
+#include "scarf/digest/digest.h"
+#include "scarf/io/frames.h"
 
 namespace scarf::tools {
 

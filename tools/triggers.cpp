@@ -3,11 +3,12 @@
 #include <iostream>
 
 #include "core/text.h"
-#include "scarf/frames.h"
+#include "io/files/write_file.h"
+#include "scarf/io/frames.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"
-#include "tools/files.h"
-#include "tools/read_options.h"
+#include "tools/options.h"
 
 namespace scarf::tools {
 namespace {
@@ -58,8 +59,8 @@ void add_triggers(CLI::App& program, Command& command) {
   auto options = std::make_shared<TriggersOptions>();
   add_input_option(*app, "file", options->file, "Recording; - is standard input")->required();
   add_output_option(*app, "-o,--output", options->output, "CSV file to write instead of standard output");
-  add_read_options(*app, options->read);
-  add_allow_empty(*app, options->allow_empty);
+  add_settings(*app, read_settings(options->read));
+  add_settings(*app, empty_settings(options->allow_empty));
   app->callback([&command, app, options] {
     command.run = [app, options] { return triggers(*options, output_rule(*app)); };
   });

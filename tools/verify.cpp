@@ -4,18 +4,18 @@
 #include <map>
 #include <tuple>
 
+#include "compare/lockstep.h"
 #include "core/text.h"
+#include "session/device_words.h"
+#include "session/request.h"
 #include "tools/commands.h"
-#include "tools/device_words.h"
-#include "tools/lockstep.h"
 #include "tools/options.h"
-#include "tools/read_options.h"
 
 namespace scarf::tools {
 namespace {
 
 struct VerifyOptions {
-  StreamOptions stream;
+  StreamRequest stream;
   std::optional<uint64_t> max_events;
   std::string failing;  ///< where the failing prefix goes
   bool decode_on_device = false;
@@ -23,7 +23,7 @@ struct VerifyOptions {
 };
 
 // None where every bit must be the same.
-std::unique_ptr<Tolerance> tolerance_of(const StreamOptions& options, SensorSize sensor) {
+std::unique_ptr<Tolerance> tolerance_of(const StreamRequest& options, SensorSize sensor) {
   if (options.representation == "scarf") return nullptr;
   const auto parameters = parameters_of(options);
   if (!parameters || info_of(*parameters).exact) return nullptr;
@@ -31,12 +31,12 @@ std::unique_ptr<Tolerance> tolerance_of(const StreamOptions& options, SensorSize
 }
 
 // What was compared.
-std::string subject(const StreamOptions& options, Representation& r) {
+std::string subject(const StreamRequest& options, Representation& r) {
   if (const auto* scarf = dynamic_cast<Scarf*>(&r)) return text(scarf->geometry().patches(), " patches");
   return text(options.representation, " on ", r.sensor().width, "x", r.sensor().height);
 }
 
-std::string identical(const Lockstep& run, const StreamOptions& options, Representation& reference,
+std::string identical(const Lockstep& run, const StreamRequest& options, Representation& reference,
                       const std::string& device, const Tolerance* tolerance) {
   return text(tolerance ? "within the bound: " : "identical: ", run.events, " events, ", run.batches,
               " batches, ", subject(options, reference), ", device ", device,
@@ -177,7 +177,7 @@ Result<int> verify(const VerifyOptions& options, const OutputRule& rule) {
 void add_verify(CLI::App& program, Command& command) {
   CLI::App* app = program.add_subcommand("verify", "Compare a device with the CPU reference, batch by batch");
   auto options = std::make_shared<VerifyOptions>();
-  add_stream_options(*app, options->stream);
+  add_settings(*app, stream_settings(options->stream));
   add_decode_option(*app, options->decode_on_device);
   add_parsed_option(*app, "--max-events", options->max_events, parse_whole<uint64_t>,
                     "Stop after so many events");

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "scarf/event.h"
-#include "scarf/parameters.h"
+#include "scarf/core/event.h"
+#include "scarf/core/parameters.h"
 
 namespace scarf {
 

@@ -1,9 +1,9 @@
 // Parameters and shapes of the encodings.
-#include "scarf/encoding.h"
+#include "scarf/core/encoding.h"
 
 #include "core/ceil_div.h"
 #include "core/fields.h"
-#include "scarf/geometry.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf {
 namespace {

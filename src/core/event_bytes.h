@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/little_endian.h"
-#include "scarf/event.h"
+#include "scarf/core/event.h"
 
 namespace scarf {
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/text.h"
-#include "scarf/parameters.h"
-#include "scarf/result.h"
+#include "scarf/core/parameters.h"
+#include "scarf/core/result.h"
 
 namespace scarf {
 

@@ -1,5 +1,5 @@
 // Parameters of the noise filters, and filters behind each other.
-#include "scarf/filter.h"
+#include "scarf/core/filter.h"
 
 #include "core/fields.h"
 

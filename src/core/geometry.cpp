@@ -1,6 +1,4 @@
 // The presets and the legal ranges of patch grids.
-#include "scarf/geometry.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "core/ceil_div.h"
 #include "core/text.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "scarf/image.h"
+#include "scarf/core/image.h"
 
 namespace scarf {
 

@@ -1,5 +1,5 @@
 // Every parameter of every representation, said once.
-#include "scarf/parameters.h"
+#include "scarf/core/parameters.h"
 
 #include <cmath>
 

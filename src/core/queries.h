@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/text.h"
-#include "scarf/scarf.h"
+#include "scarf/core/patch_state.h"
 
 namespace scarf {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf {
 

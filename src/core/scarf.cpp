@@ -1,7 +1,6 @@
 // What a Scarf is as a Representation.
-#include "scarf/scarf.h"
-
 #include "core/little_endian.h"
+#include "scarf/core/patch_state.h"
 
 namespace scarf {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/text.h"
-#include "scarf/geometry.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf {
 

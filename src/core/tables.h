@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "scarf/image.h"
+#include "scarf/core/image.h"
 
 namespace scarf {
 

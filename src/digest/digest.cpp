@@ -1,4 +1,4 @@
-#include "scarf/digest.h"
+#include "scarf/digest/digest.h"
 
 #include <openssl/evp.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scarf/event.h"
+#include "scarf/core/event.h"
 
 namespace scarf::simulate {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scarf/simulate.h"
+#include "scarf/simulate/simulate.h"
 #include "simulate/scene.h"
 
 namespace scarf::simulate {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scarf/image.h"
+#include "scarf/core/image.h"
 #include "simulate/scene.h"
 #include "simulate/texture.h"
 

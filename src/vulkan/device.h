@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 #include "vulkan/quirks.h"
 #include "vulkan/table.h"
 

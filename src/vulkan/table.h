@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 // clang-format off
 #define SCARF_VK_GLOBAL_CALLS(CALL) \

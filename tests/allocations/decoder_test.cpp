@@ -1,13 +1,14 @@
 // Every allocation of a decoder of camera words is made to fail.
+#include "scarf/device/decoder.h"
+
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "scarf/gpu_decoding.h"
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 #include "tests/allocations/followed.h"
 #include "tests/allocations/quiet_device.h"
-#include "tests/decoding/words.h"
+#include "tests/support/words.h"
 
 namespace scarf {
 namespace {

@@ -9,7 +9,7 @@
 #include <new>
 #include <type_traits>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::test {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "scarf/gpu.h"
-#include "scarf/representation.h"
+#include "scarf/core/representation.h"
+#include "scarf/device/stream.h"
 #include "tests/allocations/failing_new.h"
 #include "tests/support/representations.h"
 

@@ -1,7 +1,8 @@
 // Every allocation of a group is made to fail: no member loses anything silently.
+#include "scarf/device/group.h"
+
 #include <gtest/gtest.h>
 
-#include "scarf/gpu_group.h"
 #include "tests/allocations/followed.h"
 #include "tests/allocations/quiet_device.h"
 #include "tests/support/streams.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scarf/word_source.h"
+#include "scarf/io/words.h"
 #include "tests/allocations/failing_new.h"
 #include "tests/io/io_test_helpers.h"
 #include "tests/support/archive_bytes.h"

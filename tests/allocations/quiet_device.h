@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 #include "tests/allocations/failing_new.h"
 #include "vulkan/device.h"
 #include "vulkan/table.h"

@@ -1,12 +1,12 @@
 // Every allocation of the references is made to fail: a push stores all or nothing, or the reference says
 // that it is incomplete.
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "scarf/encoding.h"
+#include "scarf/core/encoding.h"
 #include "tests/allocations/followed.h"
 #include "tests/support/streams.h"
 

@@ -1,6 +1,6 @@
 // Every allocation of a replay is made to fail: the frames that come are the first ones of the whole, and
 // what is missing is told.
-#include "scarf/replay.h"
+#include "scarf/device/replay.h"
 
 #include <gtest/gtest.h>
 

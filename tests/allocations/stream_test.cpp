@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "scarf/encoding.h"
-#include "scarf/gpu_encoding.h"
+#include "scarf/core/encoding.h"
+#include "scarf/device/encoder.h"
 #include "tests/allocations/followed.h"
 #include "tests/allocations/quiet_device.h"
 #include "tests/support/streams.h"

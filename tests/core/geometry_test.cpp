@@ -1,11 +1,11 @@
-#include "scarf/geometry.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>
 #include <random>
+
+#include "scarf/core/patch_grid.h"
 
 namespace scarf {
 namespace {

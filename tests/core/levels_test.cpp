@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "scarf/image.h"
+#include "scarf/core/image.h"
 
 namespace scarf {
 namespace {

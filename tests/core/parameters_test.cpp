@@ -1,4 +1,4 @@
-#include "scarf/parameters.h"
+#include "scarf/core/parameters.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

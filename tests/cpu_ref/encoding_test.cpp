@@ -1,4 +1,4 @@
-#include "scarf/encoding.h"
+#include "scarf/core/encoding.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "core/encoding_tables.h"
-#include "scarf/geometry.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf {
 namespace {

@@ -1,4 +1,4 @@
-#include "scarf/filter.h"
+#include "scarf/core/filter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "scarf/geometry.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf {
 namespace {

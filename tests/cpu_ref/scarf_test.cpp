@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "scarf/digest.h"
-#include "scarf/reference.h"
+#include "scarf/digest/digest.h"
+#include "scarf/reference/reference.h"
 
 namespace scarf {
 

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "core/little_endian.h"
-#include "io/open.h"
-#include "scarf/io.h"
+#include "io/open/open.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/little_endian.h"
-#include "io_test_helpers.h"
+#include "tests/io/io_test_helpers.h"
 
 namespace scarf {
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 #include "tests/reprocess/reprocess_runs.h"
 #include "tests/support/archive_bytes.h"
 #include "tests/tools/event_fixtures.h"

@@ -1,4 +1,4 @@
-#include "tools/reprocess/job_list.h"
+#include "reprocess/job_list.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,9 @@
 #include "core/text.h"
 #include "tests/tools/temporary_folder.h"
 
-namespace scarf::tools::reprocess {
+namespace scarf::reprocess {
+
+using namespace tools;  // fixtures of the tests of the program
 namespace {
 
 using testing::ElementsAre;
@@ -127,4 +129,4 @@ TEST_F(Listing, AFolderKeepsItsOwnNameWhateverLinksSortBeforeIt) {
 }
 
 }  // namespace
-}  // namespace scarf::tools::reprocess
+}  // namespace scarf::reprocess

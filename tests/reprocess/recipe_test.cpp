@@ -1,11 +1,13 @@
-#include "tools/reprocess/recipe.h"
+#include "reprocess/recipe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/tools/temporary_folder.h"
 
-namespace scarf::tools::reprocess {
+namespace scarf::reprocess {
+
+using namespace tools;  // fixtures of the tests of the program
 namespace {
 
 using testing::HasSubstr;
@@ -42,21 +44,21 @@ geometry = "32x32"
 every = 100
 )");
   ASSERT_TRUE(recipe.ok()) << recipe.error().message;
-  const Settings plain = recipe->for_recording("a/b.raw");
+  const SettingWords plain = recipe->for_recording("a/b.raw");
   EXPECT_EQ(plain.at("kernel"), std::vector<std::string>{"7"});
   EXPECT_FALSE(plain.contains("geometry"));
   EXPECT_EQ(recipe->for_recording("a/b.txt").at("geometry").front(), "64x48");
-  const Settings special = recipe->for_recording("special/deep/b.txt");  // * is also for /
+  const SettingWords special = recipe->for_recording("special/deep/b.txt");  // * is also for /
   EXPECT_EQ(special.at("geometry").front(), "32x32");
   EXPECT_TRUE(special.contains("every"));
   EXPECT_FALSE(special.contains("rate"));  // one instant replaces the other
 
   const auto options = parse_settings(special);
   ASSERT_TRUE(options.ok()) << options.error().message;
-  EXPECT_EQ((*options)->frames.every, 100u);
-  EXPECT_EQ((*options)->stream.filters.size(), 2u);
-  EXPECT_EQ((*options)->stream.read.sensor, (SensorSize{32, 32}));
-  EXPECT_EQ((*options)->outputs.size(), 2u);
+  EXPECT_EQ(options->frames.every, 100u);
+  EXPECT_EQ(options->stream.filters.size(), 2u);
+  EXPECT_EQ(options->stream.read.sensor, (SensorSize{32, 32}));
+  EXPECT_EQ(options->outputs.size(), 2u);
 }
 
 TEST_F(RecipeFile, IsOnTopOfTheDefault) {
@@ -105,13 +107,14 @@ TEST_F(RecipeFile, SideFilesStandBesideTheRecording) {
 }
 
 TEST(Recipes, EmptyValuesAreErrorsOfEverySetting) {
-  const auto options = *parse_settings(default_recipe().settings);
+  Options options;
+  const Settings all = settings_of(options);
   size_t settings = 0;
-  for (const CLI::Option* option : options->app.get_options()) {
-    const std::string name = option->get_name().substr(2);
+  for (const Setting& setting : all.all()) {
+    const std::string& name = setting.name;
     ++settings;
     for (const std::string value : {"", " ", "\t"}) {
-      Settings changed = default_recipe().settings;
+      SettingWords changed = default_recipe().settings;
       changed[name] = {value};
       const auto parsed = parse_settings(changed);
       ASSERT_FALSE(parsed.ok()) << name;
@@ -123,4 +126,4 @@ TEST(Recipes, EmptyValuesAreErrorsOfEverySetting) {
 }
 
 }  // namespace
-}  // namespace scarf::tools::reprocess
+}  // namespace scarf::reprocess

@@ -1,7 +1,7 @@
 // scarf reprocess from outside: results, records, failures, crashes, and several processes at once.
 #include <gmock/gmock.h>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 #include "tests/reprocess/reprocess_runs.h"
 #include "tests/tools/event_fixtures.h"
 

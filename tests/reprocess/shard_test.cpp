@@ -1,4 +1,4 @@
-#include "tools/reprocess/shard.h"
+#include "reprocess/shard.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,10 @@
 #include <map>
 #include <set>
 
-#include "tools/reprocess/sample.h"
+#include "reprocess/sample.h"
 
-namespace scarf::tools::reprocess {
+namespace scarf::reprocess {
+
 namespace {
 
 Environment fixed(const std::map<std::string, std::string>& variables) {
@@ -109,4 +110,4 @@ TEST(Sample, IsThatShareAndFollowsTheSeed) {
 }
 
 }  // namespace
-}  // namespace scarf::tools::reprocess
+}  // namespace scarf::reprocess

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 #include "tests/reprocess/reprocess_runs.h"
 
 namespace scarf::tools {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "scarf/event.h"
+#include "scarf/core/event.h"
 
 namespace scarf::simulate {
 namespace {

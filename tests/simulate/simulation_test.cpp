@@ -9,7 +9,7 @@
 #include <map>
 #include <tuple>
 
-#include "scarf/digest.h"
+#include "scarf/digest/digest.h"
 
 namespace scarf {
 namespace {

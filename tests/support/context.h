@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "scarf/gpu.h"
-#include "scarf/reference.h"
+#include "scarf/device/stream.h"
+#include "scarf/reference/reference.h"
 #include "tests/support/posed_device.h"
 #include "tests/support/same.h"
 

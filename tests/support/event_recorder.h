@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "gpu/event_log.h"
-#include "gpu/stream.h"
+#include "device/stream.h"
+#include "kernels/event_log.h"
 #include "tests/support/same.h"
 
 namespace scarf::test {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 #include "tests/support/posed_device.h"
 #include "vulkan/device.h"
 #include "vulkan/table.h"

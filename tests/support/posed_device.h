@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 #include "vulkan/device.h"
 #include "vulkan/table.h"
 

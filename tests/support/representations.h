@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 #include "tests/support/same.h"
 
 namespace scarf::test {

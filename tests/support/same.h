@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "scarf/scarf.h"
+#include "scarf/core/patch_state.h"
 
 namespace scarf::test {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scarf/geometry.h"
+#include "scarf/core/patch_grid.h"
 
 namespace scarf::test {
 

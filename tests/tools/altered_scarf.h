@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "scarf/scarf.h"
+#include "scarf/core/patch_state.h"
 
 namespace scarf::tools {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "scarf/digest.h"
-#include "scarf/io.h"
+#include "scarf/digest/digest.h"
+#include "scarf/io/recordings.h"
 #include "tests/tools/program.h"
 
 namespace scarf::tools {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
 #include "tests/tools/program.h"
 
 namespace scarf::tools {

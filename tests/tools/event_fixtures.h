@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf::tools {
 

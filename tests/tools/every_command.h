@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 #include "tests/tools/program.h"
 
 namespace scarf::tools {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
 #include "tests/tools/program.h"
 
 namespace scarf::tools {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "session/request.h"
+
 namespace scarf::tools {
 namespace {
 
@@ -11,18 +13,18 @@ using testing::HasSubstr;
 constexpr SensorSize kSensor{640, 480};
 
 // The options of a command line, which the parser must accept.
-StreamOptions parsed(const std::string& line) {
+StreamRequest parsed(const std::string& line) {
   CLI::App app;
-  StreamOptions options;
-  add_stream_options(app, options);
+  StreamRequest options;
+  add_settings(app, stream_settings(options));
   app.parse("recording " + line);
   return options;
 }
 
 bool refused_by_parser(const std::string& line) {
   CLI::App app;
-  StreamOptions options;
-  add_stream_options(app, options);
+  StreamRequest options;
+  add_settings(app, stream_settings(options));
   try {
     app.parse("recording " + line);
   } catch (const CLI::ParseError&) {
@@ -35,15 +37,15 @@ std::string grid_error(const std::string& line) {
   const auto grid = grid_on(parsed(line), kSensor);
   if (grid) return "no error";
   EXPECT_EQ(grid.error().code, ErrorCode::illegal_parameter);
-  return grid.error().message;
+  return in_options(grid.error().message);
 }
 
 const std::string kExplicit =
     "--preset explicit --cell 18x16 --origin -3,-4 --grid 36x30 --margin-lo 4,5 --margin-hi 6,7 --capacity "
     "100";
 
-TEST(StreamOptions, DefaultsAreThePaper) {
-  const StreamOptions options = parsed("");
+TEST(StreamSettings, DefaultsAreThePaper) {
+  const StreamRequest options = parsed("");
   EXPECT_EQ(options.file, "recording");
   EXPECT_EQ(*grid_on(options, kSensor), *make_geometry(Preset::paper, kSensor));
   EXPECT_EQ(options.accumulation, 0.3);
@@ -52,8 +54,8 @@ TEST(StreamOptions, DefaultsAreThePaper) {
   EXPECT_EQ(BatchSizes(options.batches).next(), kDefaultBatch);
 }
 
-TEST(StreamOptions, PresetsTakeTheirParameters) {
-  const StreamOptions options = parsed(
+TEST(StreamSettings, PresetsTakeTheirParameters) {
+  const StreamRequest options = parsed(
       "--preset event_driven_flex --cell 12 --ratio 1.5 --alpha 3 --accumulation 0.25 --geometry 320x240");
   EXPECT_EQ(*grid_on(options, kSensor),
             *make_geometry(Preset::event_driven_flex, kSensor, {.cell = 12, .ratio = 1.5, .alpha = 3.0}));
@@ -61,12 +63,12 @@ TEST(StreamOptions, PresetsTakeTheirParameters) {
   EXPECT_EQ(options.read.sensor, (SensorSize{320, 240}));
 }
 
-TEST(StreamOptions, ExplicitTakesAllThirteenIntegers) {
+TEST(StreamSettings, ExplicitTakesAllThirteenIntegers) {
   const Geometry expected{{640, 18, -3, 36, 4, 6}, {480, 16, -4, 30, 5, 7}, 100};
   EXPECT_EQ(*grid_on(parsed(kExplicit), kSensor), expected);
 }
 
-TEST(StreamOptions, ExplicitNamesWhatIsMissing) {
+TEST(StreamSettings, ExplicitNamesWhatIsMissing) {
   for (const std::string option :
        {"--cell", "--origin", "--grid", "--margin-lo", "--margin-hi", "--capacity"}) {
     std::string line = kExplicit;
@@ -77,12 +79,12 @@ TEST(StreamOptions, ExplicitNamesWhatIsMissing) {
   }
 }
 
-TEST(StreamOptions, ExplicitRefusesRatioAndAlpha) {
+TEST(StreamSettings, ExplicitRefusesRatioAndAlpha) {
   EXPECT_THAT(grid_error(kExplicit + " --ratio 1"), HasSubstr("--ratio"));
   EXPECT_THAT(grid_error(kExplicit + " --alpha 1"), HasSubstr("--alpha"));
 }
 
-TEST(StreamOptions, OtherPresetsRefuseWhatExplicitTakes) {
+TEST(StreamSettings, OtherPresetsRefuseWhatExplicitTakes) {
   for (const std::string given :
        {"--origin 0,0", "--grid 3x3", "--margin-lo 1,1", "--margin-hi 1,1", "--capacity 5"}) {
     EXPECT_THAT(grid_error(given), HasSubstr(given.substr(0, given.find(' ')))) << given;
@@ -92,7 +94,7 @@ TEST(StreamOptions, OtherPresetsRefuseWhatExplicitTakes) {
   EXPECT_THAT(grid_error("--preset light --ratio 1"), HasSubstr("ratio"));
 }
 
-TEST(StreamOptions, TheParserRefusesIllegalValues) {
+TEST(StreamSettings, TheParserRefusesIllegalValues) {
   for (const char* line :
        {"--geometry 640", "--geometry 640x", "--geometry 0x480", "--geometry 640x16385", "--geometry 640X480",
         "--preset unknown", "--batch 0", "--ratio wide", "--origin 3x3", "--grid 3,3", "--capacity 1.5",
@@ -101,8 +103,8 @@ TEST(StreamOptions, TheParserRefusesIllegalValues) {
   }
 }
 
-TEST(StreamOptions, TheCpuIsTheReference) {
-  const StreamOptions options = parsed("--cpu --accumulation 0.5");
+TEST(StreamSettings, TheCpuIsTheReference) {
+  const StreamRequest options = parsed("--cpu --accumulation 0.5");
   const auto implementation = make_implementation(options, {64, 48});
   ASSERT_TRUE(implementation.ok());
   EXPECT_EQ(implementation->name, "CPU reference");

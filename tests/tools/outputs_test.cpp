@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-#include "scarf/digest.h"
+#include "scarf/digest/digest.h"
 #include "tests/tools/program.h"
 #include "tools/commands.h"
 #include "tools/file_options.h"

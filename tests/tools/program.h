@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/text.h"
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 #include "tests/tools/event_fixtures.h"
 #include "tests/tools/temporary_folder.h"
 

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "core/text.h"
-#include "scarf/digest.h"
-#include "scarf/gpu.h"
+#include "scarf/device/stream.h"
+#include "scarf/digest/digest.h"
 
 namespace scarf::tools {
 namespace {

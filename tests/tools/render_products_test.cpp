@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "core/little_endian.h"
-#include "scarf/encoding.h"
+#include "scarf/core/encoding.h"
 #include "tests/tools/program.h"
 
 namespace scarf::tools {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "scarf/reference.h"
+#include "scarf/reference/reference.h"
 #include "tests/support/posed_device.h"
 #include "tests/support/same.h"
 #include "tests/support/streams.h"

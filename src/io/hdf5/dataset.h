@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "io/hdf5/library.h"
-#include "scarf/io.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf::hdf5 {
 

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "core/text.h"
-#include "io/event_check.h"
-#include "io/event_tally.h"
+#include "io/base/event_check.h"
+#include "io/base/event_tally.h"
+#include "io/base/writers.h"
+#include "io/files/output_files.h"
 #include "io/hdf5/event_columns.h"
 #include "io/hdf5/growing_dataset.h"
-#include "io/output_files.h"
-#include "io/writers.h"
 
 namespace scarf {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "scarf/event.h"
-#include "scarf/result.h"
+#include "scarf/core/event.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "core/text.h"
-#include "io/block_source.h"
-#include "io/columns.h"
+#include "io/base/block_source.h"
+#include "io/base/columns.h"
+#include "io/base/named_columns.h"
+#include "io/base/rounding.h"
+#include "io/base/sensor_size.h"
 #include "io/hdf5/event_table.h"
 #include "io/hdf5/find_columns.h"
 #include "io/hdf5/reader.h"
-#include "io/named_columns.h"
-#include "io/rounding.h"
-#include "io/sensor_size.h"
 
 namespace scarf::hdf5 {
 namespace {

@@ -13,8 +13,8 @@
 #include "io/hdf5/dataset.h"
 #include "io/hdf5/layouts.h"
 #include "io/hdf5/number_type.h"
-#include "scarf/io.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf::hdf5 {
 

@@ -15,7 +15,7 @@
 
 #include "core/regular_file.h"
 #include "io/hdf5/library.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

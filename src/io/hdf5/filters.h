@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/hdf5/library.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/text.h"
-#include "io/columns.h"
+#include "io/base/columns.h"
+#include "io/base/named_columns.h"
+#include "io/base/streams.h"
 #include "io/hdf5/dataset.h"
 #include "io/hdf5/number_type.h"
-#include "io/named_columns.h"
-#include "io/streams.h"
 
 namespace scarf::hdf5 {
 namespace {

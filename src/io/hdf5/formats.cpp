@@ -1,10 +1,10 @@
 // The HDF5 formats; built also without libhdf5, to say what is missing.
 #include <string_view>
 
+#include "io/base/known_formats.h"
+#include "io/base/writers.h"
 #include "io/hdf5/family.h"
 #include "io/hdf5/reader.h"
-#include "io/known_formats.h"
-#include "io/writers.h"
 
 namespace scarf {
 namespace {

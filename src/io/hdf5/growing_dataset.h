@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/hdf5/written_file.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

@@ -12,12 +12,12 @@
 #include <string_view>
 #include <vector>
 
-#include "io/columns.h"
+#include "io/base/columns.h"
 #include "io/hdf5/dataset.h"
 #include "io/hdf5/family.h"
 #include "io/hdf5/library.h"
-#include "scarf/event.h"
-#include "scarf/result.h"
+#include "scarf/core/event.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

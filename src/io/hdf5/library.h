@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "core/text.h"
+#include "io/base/sensor_size.h"
 #include "io/hdf5/dataset.h"
 #include "io/hdf5/layouts.h"
 #include "io/hdf5/number_type.h"
 #include "io/hdf5/reader.h"
-#include "io/sensor_size.h"
 
 namespace scarf::hdf5 {
 namespace {

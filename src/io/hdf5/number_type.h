@@ -10,8 +10,8 @@
 #include <span>
 #include <type_traits>
 
+#include "io/base/rounding.h"
 #include "io/hdf5/library.h"
-#include "io/rounding.h"
 
 namespace scarf::hdf5 {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "io/format.h"
+#include "io/base/format.h"
 #include "io/hdf5/family.h"
-#include "scarf/frames.h"
-#include "scarf/io.h"
+#include "scarf/io/frames.h"
+#include "scarf/io/recordings.h"
 
 namespace scarf::hdf5 {
 

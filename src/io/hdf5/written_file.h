@@ -6,7 +6,7 @@
 
 #include "io/hdf5/file_driver.h"
 #include "io/hdf5/library.h"
-#include "scarf/result.h"
+#include "scarf/core/result.h"
 
 namespace scarf::hdf5 {
 

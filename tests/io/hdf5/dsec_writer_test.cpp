@@ -1,7 +1,7 @@
 // The DSEC layout as it is written: read back by us and by h5py.
 #include <gmock/gmock.h>
 
-#include "hdf5_test_helpers.h"
+#include "tests/io/hdf5/hdf5_test_helpers.h"
 #include "tests/support/small_disk.h"
 
 namespace scarf {

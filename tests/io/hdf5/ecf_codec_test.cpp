@@ -1,7 +1,7 @@
 // ECF by bit, against an encoder in Python, and on hostile bytes.
 #include "io/hdf5/ecf_codec.h"
 
-#include "hdf5_test_helpers.h"
+#include "tests/io/hdf5/hdf5_test_helpers.h"
 
 namespace scarf::hdf5 {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "../io_test_helpers.h"
-#include "../python_recordings.h"
-#include "scarf/io.h"
+#include "scarf/io/recordings.h"
+#include "tests/io/io_test_helpers.h"
+#include "tests/io/python_recordings.h"
 
 namespace scarf {
 

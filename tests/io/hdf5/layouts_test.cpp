@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "hdf5_test_helpers.h"
-#include "scarf/digest.h"
-#include "scarf/frames.h"
+#include "scarf/digest/digest.h"
+#include "scarf/io/frames.h"
+#include "tests/io/hdf5/hdf5_test_helpers.h"
 
 namespace scarf {
 namespace {

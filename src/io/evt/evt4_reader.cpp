@@ -1,0 +1,158 @@
+// Reader of EVT4 words.
+
+#include <optional>
+#include <utility>
+
+#include "core/little_endian.h"
+#include "io/base/buffered_source.h"
+#include "io/base/decoded_triggers.h"
+#include "io/base/known_formats.h"
+#include "io/base/sensor_size.h"
+#include "io/base/writers.h"
+#include "io/evt/evt4.h"
+#include "io/evt/pixel_mask.h"
+#include "io/evt/word_check.h"
+#include "io/evt/word_guess.h"
+
+namespace scarf {
+namespace {
+
+constexpr std::string_view kName = "evt4";
+
+bool announces_mask(uint32_t type) {
+  return type == evt4::kVectorOff || type == evt4::kVectorOn;
+}
+
+class Evt4Reader final : public BufferedSource {
+ public:
+  using BufferedSource::BufferedSource;
+
+  std::string_view format() const override { return kName; }
+
+ protected:
+  Decoded decode(std::span<const uint8_t> bytes, bool last, std::span<Event> out) override;
+
+ private:
+  Event event_of(uint32_t word, uint32_t polarity) const {
+    return {clock_.time(word >> 22), static_cast<uint16_t>(word >> 11 & evt2::kCoordinateMask),
+            static_cast<uint16_t>(word & evt2::kCoordinateMask), static_cast<uint8_t>(polarity)};
+  }
+
+  evt2::Clock clock_;
+  bool mask_follows_ = false;
+  PixelMask vector_;  // its bits: events of the last mask that did not fit the output yet
+};
+
+BufferedSource::Decoded Evt4Reader::decode(std::span<const uint8_t> bytes, bool /*last*/,
+                                           std::span<Event> out) {
+  size_t count = vector_.write(out);
+  size_t at = 0;
+  for (; count < out.size() && at + 4 <= bytes.size(); at += 4) {
+    const auto word = load_little_endian<uint32_t>(bytes.data() + at);
+    if (mask_follows_) {
+      mask_follows_ = false;
+      vector_.bits = clock_.started() ? word : 0;
+      count += vector_.write(out.subspan(count));
+      continue;
+    }
+    switch (const uint32_t type = word >> 28) {
+      case evt4::kOff:
+      case evt4::kOn:
+        if (clock_.started()) out[count++] = event_of(word, type - evt4::kOff);
+        break;
+      case evt4::kVectorOff:
+      case evt4::kVectorOn:
+        mask_follows_ = true;
+        vector_.first = event_of(word, type - evt4::kVectorOff);
+        break;
+      case evt4::kTimeHigh:
+        clock_.set_high(word);
+        break;
+      case evt4::kOther:
+      case evt4::kContinued:
+      case evt4::kTrigger:
+      case evt4::kPadding:
+        break;
+      default:
+        tally_.report.unknown_words += clock_.started() ? 1 : 0;
+    }
+  }
+  if (clock_.started()) tally_.set_first_high(clock_.first_high());
+  return {at, tally_.keep(out.first(count)), count < out.size()};
+}
+
+Result<std::unique_ptr<EventSource>> open_evt4(Input input, const ReadOptions& options) {
+  const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
+  if (!sensor) return sensor.error();
+  return std::unique_ptr<EventSource>(std::make_unique<Evt4Reader>(std::move(input), *sensor, options));
+}
+
+class Evt4Triggers {
+ public:
+  std::optional<Trigger> take(uint32_t word) {
+    if (std::exchange(mask_follows_, false)) return std::nullopt;
+    const uint32_t type = word >> 28;
+    mask_follows_ = announces_mask(type);
+    if (type == evt4::kTimeHigh) clock_.set_high(word);
+    if (type != evt4::kTrigger || !clock_.started()) return std::nullopt;
+    return Trigger{clock_.time(word >> 22), static_cast<uint16_t>(word >> 8 & evt2::kTriggerInputMask),
+                   static_cast<uint8_t>(word & 1)};
+  }
+
+ private:
+  evt2::Clock clock_;
+  bool mask_follows_ = false;
+};
+
+Result<std::unique_ptr<TriggerSource>> open_evt4_triggers(Input input, const ReadOptions& options) {
+  return make_decoded_triggers(std::move(input), options,
+                               TriggersByWord<uint32_t, Evt4Triggers>(Evt4Triggers()));
+}
+
+bool recognise_evt4(const Beginning& beginning) {
+  return beginning.last && guess_words(beginning.bytes) == kName;
+}
+
+}  // namespace
+
+bool looks_like_evt4(std::span<const uint8_t> bytes) {
+  constexpr uint32_t kPaddingWord = 0xFFFFFFFF;
+  WordCheck<evt2::kTimeHighBits> check;
+  for (size_t at = 0; at + 4 <= bytes.size(); at += 4) {
+    const auto word = load_little_endian<uint32_t>(bytes.data() + at);
+    switch (word >> 28) {
+      case evt4::kVectorOff:
+      case evt4::kVectorOn:
+        at += 4;  // the mask
+        [[fallthrough]];
+      case evt4::kOff:
+      case evt4::kOn:
+        check.event();
+        break;
+      case evt4::kTimeHigh:
+        check.time_high(word & (evt2::TimeHigh::kRange - 1));
+        break;
+      case evt4::kOther:
+      case evt4::kContinued:
+      case evt4::kTrigger:
+        check.other();
+        break;
+      default:
+        word == kPaddingWord ? check.other() : check.undefined();
+    }
+  }
+  return check.plausible(evt2::kTimeHighsPerSecond);
+}
+
+const Format kEvt4Format = {.name = kName,
+                            .title = "Prophesee RAW, EVT4",
+                            .options = kTakesFirstHigh,
+                            .prophesee = true,
+                            .recognise = recognise_evt4,
+                            .open = open_evt4,
+                            .create = create_evt4,
+                            .open_triggers = open_evt4_triggers,
+                            .writes_header = true,
+                            .writes_triggers = true};
+
+}  // namespace scarf

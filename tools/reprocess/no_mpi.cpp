@@ -1,9 +1,0 @@
-#include "tools/reprocess/mpi_crew.h"
-
-namespace scarf::tools::reprocess {
-
-Result<std::unique_ptr<MpiSession>> MpiSession::start() {
-  return std::unique_ptr<MpiSession>();
-}
-
-}  // namespace scarf::tools::reprocess
