@@ -1,7 +1,7 @@
 // What a device can do at most, measured: what the times of stages and streams are held against.
 #pragma once
 
-#include "scarf/device/stream.h"
+#include "scarf/device/context.h"
 
 namespace scarf::bench {
 

@@ -38,6 +38,14 @@ function(scarf_public_headers name)
   scarf_include_set(api_${name} "${PROJECT_SOURCE_DIR}/include" scarf/${name} ${ARG_FILES})
   list(TRANSFORM ARG_USES PREPEND api_)
   target_link_libraries(api_${name} INTERFACE ${ARG_USES})
+  list(TRANSFORM ARG_USES REPLACE "^api_" "api/")
+  scarf_note_room(api/${name} ${ARG_USES})
+endfunction()
+
+# What tests/rooms_test.py reads.
+function(scarf_note_room path)
+  list(JOIN ARGN " " uses)
+  set_property(GLOBAL APPEND_STRING PROPERTY SCARF_ROOM_LIST "${path}: ${uses}\n")
 endfunction()
 
 # scarf_room(PATH [FROM folder] [SOURCES file...] [USES room...] [LIBRARIES library...] [OPTIONS option...])
@@ -74,6 +82,7 @@ function(scarf_room path)
     target_link_libraries(${room} INTERFACE ${used})
   endif()
   scarf_include_set(${room} "${ARG_FROM}" ${path})
+  scarf_note_room(${path} ${ARG_USES})
   set_property(GLOBAL APPEND PROPERTY SCARF_ROOMS ${room})
 endfunction()
 

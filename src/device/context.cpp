@@ -1,5 +1,5 @@
 // The public face of a Vulkan device.
-#include "scarf/device/stream.h"
+#include "scarf/device/context.h"
 #include "vulkan/device.h"
 
 namespace scarf {

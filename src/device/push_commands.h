@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "scarf/device/stream.h"
+#include "scarf/device/context.h"
 #include "vulkan/commands.h"
 #include "vulkan/device.h"
 

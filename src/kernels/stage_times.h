@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scarf/device/stream.h"
+#include "scarf/device/tuning.h"
 #include "vulkan/commands.h"
 #include "vulkan/pool.h"
 

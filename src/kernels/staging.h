@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scarf/device/stream.h"
+#include "scarf/device/context.h"
 #include "vulkan/buffer.h"
 #include "vulkan/device.h"
 

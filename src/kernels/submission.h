@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scarf/device/stream.h"
+#include "scarf/device/tuning.h"
 #include "vulkan/device.h"
 
 namespace scarf {

@@ -23,8 +23,8 @@ Result<DeviceWords> DeviceWords::open(const StreamRequest& options, std::span<Re
     if (on_device == nullptr) {
       return Error{
           ErrorCode::illegal_parameter,
-          "decoding on the device needs a device for everything that is shown; decode on the host, or show "
-          "only representations on the device"};
+          "decoding on the device needs a device for everything that is shown; decode on the host, or leave "
+          "out StreamRequest::cpu and what the host alone computes"};
     }
     auto decoder = make_gpu_decoder(*on_device, format);
     if (!decoder) return decoder.error();

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scarf/device/stream.h"
+#include "scarf/device/context.h"
 #include "vulkan/quirks.h"
 #include "vulkan/table.h"
 

@@ -73,7 +73,7 @@ TEST_F(RecipeFile, MistakesNameTheLineAndTheSetting) {
   EXPECT_THAT(error_of("output = \"../a.png\"\n"), HasSubstr("../a.png"));
   EXPECT_THAT(error_of("output = \".tmp/\"\n"), HasSubstr("taken"));
   EXPECT_THAT(error_of("rate = 30\n"), HasSubstr("output"));  // the default output is one picture
-  EXPECT_THAT(error_of("output = \".frames/\"\nrate = 30\nevery = 5\n"), HasSubstr("--rate"));
+  EXPECT_THAT(error_of("output = \".frames/\"\nrate = 30\nevery = 5\n"), HasSubstr("rate"));
   EXPECT_THAT(error_of("pixels = \"float\"\n"), HasSubstr(".npy"));
   EXPECT_THAT(error_of("output = \".npy\"\nencoding = \"tore\"\n"), HasSubstr(".h5"));
   EXPECT_THAT(error_of("output = \".h5\"\nencoding = \"nothing\"\n"), HasSubstr("nothing"));

@@ -16,10 +16,10 @@ constexpr size_t kEvents = 400'000;  // long enough to read that the program is 
 class ChangingRecording : public Program {
  protected:
   Outcome run_meanwhile(const std::string& arguments, const std::string& file,
-                        const std::function<void()>& act) {
+                        const std::function<void()>& act, Met met = Met::open) {
     const std::string command =
         text("exec >", path("out"), " 2>", path("err"), "; exec ", SCARF_PROGRAM, " ", arguments);
-    const int exit_code = tools::run_meanwhile(command, file, act);
+    const int exit_code = tools::run_meanwhile(command, file, act, met);
     return {exit_code, content_of(path("out")), content_of(path("err"))};
   }
 
@@ -92,7 +92,7 @@ TEST_F(ChangingRecording, IsFoundByEveryKindOfChange) {
     SCOPED_TRACE(what);
     std::filesystem::remove(file);
     write_text(file, content);
-    const Outcome outcome = run_meanwhile("info " + file, file, change);
+    const Outcome outcome = run_meanwhile("info " + file, file, change, Met::reading);
     expect_told(outcome, file);
     EXPECT_THAT(outcome.err, HasSubstr(what));
   }

@@ -21,10 +21,24 @@
 
 namespace scarf::tools {
 
+/// Whether a process has read something of a file that it has open: its place in it is no longer the beginning.
+inline bool has_read(const std::filesystem::path& descriptor) {
+  std::ifstream info(descriptor.parent_path().parent_path() / "fdinfo" / descriptor.filename());
+  std::string word;
+  uint64_t place = 0;
+  return info >> word >> place && place > 0;
+}
+
+/// When a program is met.
+enum class Met {
+  open,     ///< with the file open
+  reading,  ///< with some of it read; not of files that libraries read by other calls than read()
+};
+
 /// The exit code of `command` (of a shell, which the program replaces), or -1. The program stands still while
 /// `act` is done. What it reads must take it long enough that it is met with the file open.
 inline int run_meanwhile(const std::string& command, const std::string& file,
-                         const std::function<void()>& act) {
+                         const std::function<void()>& act, Met met = Met::open) {
   const pid_t child = fork();
   if (child == 0) {
     setpriority(PRIO_PROCESS, 0, 19);  // it is watched by who has the processor first
@@ -38,7 +52,7 @@ inline int run_meanwhile(const std::string& command, const std::string& file,
     for (fs::directory_iterator fd(text("/proc/", child, "/fd"), error), end; !error && fd != end;
          fd.increment(error)) {
       std::error_code ignored;
-      if (fs::read_symlink(fd->path(), ignored) == watched) return true;
+      if (fs::read_symlink(fd->path(), ignored) == watched) return met == Met::open || has_read(fd->path());
     }
     return false;
   };

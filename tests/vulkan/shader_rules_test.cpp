@@ -40,7 +40,7 @@ TEST(ShaderRules, TheLookFindsConditionsOnBits) {
 
 TEST(ShaderRules, NoConditionTestsABit) {
   size_t sources = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SCARF_SHADERS)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(SCARF_SHADERS)) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".comp" && extension != ".glsl") continue;
     ++sources;

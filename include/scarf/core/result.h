@@ -5,6 +5,7 @@
 // digests, which are to be made anew.
 #pragma once
 
+#include <exception>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -32,7 +33,9 @@ struct Error {
   std::string message;
 };
 
-/// A value or the Error that prevented it.
+/// A value or the Error that prevented it. Whoever takes the value without having looked, or the error of what
+/// went well, ends the program (std::terminate): nothing is thrown, and nothing goes on with a value that is
+/// none.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -42,18 +45,41 @@ class [[nodiscard]] Result {
   bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  T& value() & { return std::get<0>(content_); }
-  const T& value() const& { return std::get<0>(content_); }
-  T&& value() && { return std::get<0>(std::move(content_)); }
+  T& value() & { return *sure(std::get_if<0>(&content_)); }
+  const T& value() const& { return *sure(std::get_if<0>(&content_)); }
+  T&& value() && { return std::move(*sure(std::get_if<0>(&content_))); }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
   T&& operator*() && { return std::move(*this).value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
-  const Error& error() const { return std::get<1>(content_); }
+  const Error& error() const { return *sure(std::get_if<1>(&content_)); }
+
+  /// The value, or another one in place of an error.
+  T value_or(T other) const& { return ok() ? value() : std::move(other); }
+  T value_or(T other) && { return ok() ? std::move(*this).value() : std::move(other); }
+
+  /// `function(value)` as a Result; an error stays as it is.
+  template <class Function>
+  auto map(Function&& function) && -> Result<std::invoke_result_t<Function, T&&>> {
+    if (!ok()) return std::move(*sure(std::get_if<1>(&content_)));
+    return std::forward<Function>(function)(std::move(*this).value());
+  }
+  /// `function(value)`, which is a Result itself; an error stays as it is.
+  template <class Function>
+  auto and_then(Function&& function) && -> std::invoke_result_t<Function, T&&> {
+    if (!ok()) return std::move(*sure(std::get_if<1>(&content_)));
+    return std::forward<Function>(function)(std::move(*this).value());
+  }
 
  private:
+  template <class Held>
+  static Held* sure(Held* held) {
+    if (held == nullptr) std::terminate();
+    return held;
+  }
+
   std::variant<T, Error> content_;
 };
 

@@ -5,7 +5,7 @@
 
 #include "kernels/pipeline.h"
 #include "scarf/core/parameters.h"
-#include "scarf/device/stream.h"
+#include "scarf/device/tuning.h"
 #include "vulkan/device.h"
 
 namespace scarf {

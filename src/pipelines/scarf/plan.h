@@ -10,7 +10,7 @@
 #include "core/ceil_div.h"
 #include "scarf/core/patch_grid.h"
 #include "scarf/core/result.h"
-#include "scarf/device/stream.h"
+#include "scarf/device/tuning.h"
 #include "vulkan/device.h"
 
 namespace scarf {
