@@ -216,8 +216,7 @@ def rooms():
     d = Drawing(760, 528, "The rooms: each may include what it stands on")
     x, w = 22, 716
     d.text(x, 28, "A room may include what it stands on, if src/CMakeLists.txt names it", 15, bold=True)
-    d.label(x, 44, 596, 50, ["tools", "the program, one file per sub-command; alone sees CLI11"], AMBER)
-    d.label(x + 604, 44, 112, 50, ["tests, fuzz", "see every room"], "#ffffff", dash=True)
+    d.label(x, 44, w, 50, ["tools", "the program, one file per sub-command; alone sees CLI11"], AMBER)
     d.box(x, 102, 596, 128, "#ffffff", dash=True)
     d.text(x + 10, 120, "the engine", 12, colour=MUTED)
     d.label(x + 110, 112, 270, 32, ["reprocess"], AMBER)
@@ -237,7 +236,7 @@ def rooms():
                 d.label(inner, top + i * 36, wide - 16, 32, [room], BLUE, 12.5)
             d.label(inner, top + 108, 128, 68, ["vulkan", "knows no events"], BLUE, 12.5)
             d.label(inner + 136, top + 108, 128, 32, ["layout"], BLUE, 12.5)
-            d.label(inner + 136, top + 144, 128, 32, ["shaders (headers)"], BLUE, 12)
+            d.label(inner + 136, top + 144, 128, 32, ["shader headers"], BLUE, 12)
         elif name == "scarf::reference":
             d.label(inner, top, wide - 16, 176, ["cpu_ref", "the definitions,", "a file each"], RED)
         elif name == "scarf::io":
