@@ -243,7 +243,7 @@ def rooms():
             for i, room in enumerate(("io/open", "io/<family>", "io/base", "io/files")):
                 d.label(inner, top + i * 45, wide - 16, 41, [room], GREEN, 12.5)
         else:
-            d.label(inner, top, wide - 16, 176, [name.split(":")[-1]], GREEN, 12.5)
+            d.label(inner, top, wide - 16, 176, [name.split(":")[-1]], GREEN, 11.5)
         left += wide + 8
     d.label(x, 464, w, 46, ["core: rules and values (scarf::core), with the public headers in include/scarf/core/"], GREY)
     d.save("rooms.svg")
