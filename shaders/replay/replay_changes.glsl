@@ -28,7 +28,7 @@ uint chunk_beyond(uint patch_id, uint first, int hits) {
 }
 
 // Adds `one` (1 or -1) to the count of a pixel from an interval on. Words are sums modulo 2^32, which do not depend on
-// order; borrows between the pixels of a word cancel, see "Replay" in docs/ARCHITECTURE.md.
+// order; borrows between the pixels of a word cancel, see docs/architecture/replay.md.
 void change(uint interval, uint pixel, int one) {
   const uint bit = pixel * push.count_bits;
   atomicAdd(changes[interval * push.change_words + bit / 32], uint(one) << bit % 32);

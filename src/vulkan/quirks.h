@@ -16,7 +16,7 @@ struct Quirks {
 
   /// llvmpipe reads words through a texel buffer in a few instructions for all lanes, and those of a storage
   /// buffer in a loop over the lanes. Elsewhere storage buffers are as fast, and texel buffers may be small:
-  /// Vulkan promises 65,536 elements. Both kinds of views run in the tests; see docs/TESTING.md, "Poses".
+  /// Vulkan promises 65,536 elements. Both kinds of views run in the tests; see docs/architecture/testing.md.
   bool texel_views = false;
 
   /// llvmpipe: the lanes of a subgroup are lanes of one register, and each instruction is done for all of

@@ -67,7 +67,7 @@ inline void expect_lack(const Error& error) {
 /// Ends the program if a point takes longer than minutes: a hang is a failure.
 void watch(uint64_t n, Lack lack);
 
-/// Every allocation, instead of some; set by hand (see docs/TESTING.md).
+/// Every allocation, instead of some; set by hand (see docs/architecture/faults.md).
 bool exhaustive();
 
 /// Runs `run` again and again. Each time another allocation fails: every one if exhaustive(), else about
