@@ -1,4 +1,4 @@
-// The noise filters, as defined in scarf/filter.h: one event after the other.
+// The noise filters, as defined in scarf/core/filter.h: one event after the other.
 #include "scarf/core/filter.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The eight bytes of a slot; the host's side is src/core/packed_event.h. Needs 64-bit integers.
+// The eight bytes of a slot; the host's side is src/layout/packed_event.h. Needs 64-bit integers.
 // Bits 0..6 patch-local x, 7..13 patch-local y, 14 polarity, 15..63 signed microseconds since the first event.
 // An empty slot: the time -2^48, which no stored event has.
 const uint64_t kEmptySlot = 0x8000000000000000ul;

@@ -1,5 +1,5 @@
 // What the stages share that walk camera words: the words, and the run of them that a lane walks. Include it after the
-// local size is declared. Formats: see src/io/evt2.h and src/io/evt3.h.
+// local size is declared. Formats: see src/io/evt/evt2.h and src/io/evt/evt3.h.
 #include "decode/decode_layout.h"
 #include "common/invocation.glsl"
 

@@ -56,7 +56,7 @@ struct DecodeSummary {
   uint base;
 };
 
-// Microseconds: a longer step forward is a jump. As kLongestStep of scarf/read_report.h.
+// Microseconds: a longer step forward is a jump. As kLongestStep of scarf/core/read_report.h.
 SCARF_CONSTANT kDecodeLongestStep = 10000000;
 
 // What a decoder remembers behind the first TIME_HIGH. All 0: before every other word.

@@ -1,4 +1,4 @@
-// Layout of packed events, shared by the shader, its twin and the packer (src/core/event_packer.h).
+// Layout of packed events, shared by the shader, its twin and the packer (src/layout/event_packer.h).
 #ifndef SCARF_SHADERS_UNPACK_LAYOUT_H
 #define SCARF_SHADERS_UNPACK_LAYOUT_H
 #include "../common/layout.h"

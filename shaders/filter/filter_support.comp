@@ -11,7 +11,7 @@ layout(local_size_x = kLinearGroup) in;
 bool has_support(uint corner, uint side, int64_t t) {
   bool supported = false;
   // Trips: at most 2 * range + 1 rows of as many pixels and an entry each; see trips_per_event() in
-  // src/gpu/filter.cpp.
+  // src/pipelines/filter/filter.cpp.
   for (uint row = 0; row <= 2 * push.range && !supported; ++row) {
     for (uint column = 0; column <= 2 * push.range; ++column) {
       const int64_t before = last[corner + row * side + column];

@@ -1,7 +1,7 @@
 // Running sums along lines of a table, in place; first along all rows, then along all columns. SCARF's stage "sum":
 // afterwards four entries give the events in any rectangle of classes. The replay's stage "integrate": the corners that
 // replay_count.comp counted become hits.
-// CPU twin: cpu_ref/stages/running_sums.cpp
+// CPU twin: cpu_ref/stages/kernels/running_sums.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/layout.h"

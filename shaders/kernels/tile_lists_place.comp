@@ -19,7 +19,7 @@ void main() {
   if (!is_inside(xy)) return;
   const Tiles tiles = tiles_of(xy);
   const uint chunk = e / push.chunk_events;
-  // Trips: see place_trips() in src/gpu/tile_lists.cpp.
+  // Trips: see place_trips() in src/kernels/tile_lists.cpp.
   for (uint row = tiles.top; row <= tiles.bottom; ++row) {
     for (uint column = tiles.left; column <= tiles.right; ++column) {
       uint place = begins[(row * push.tiles_x + column) * push.chunks + chunk];

@@ -1,5 +1,5 @@
 // Stage "tone": whole numbers to 8-bit brightness, four pixels per word.
-// CPU twin: scarf_tone() in cpu_ref/stages/stages.h
+// CPU twin: scarf_tone() in cpu_ref/stages/scarf/stages.h
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/layout.h"

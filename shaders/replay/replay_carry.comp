@@ -1,6 +1,6 @@
 // Replay, stage "carry": the events that earlier groups have left in the rings. Those that this group pushes out change
 // the picture of an interval and are no longer kept. One invocation per patch and 32 slots.
-// CPU twin: cpu_ref/stages/replay_carry.cpp
+// CPU twin: cpu_ref/stages/replay/replay_carry.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "replay/replay_layout.h"

@@ -1,6 +1,6 @@
 // Replay, stage "change": each event is shown from its own interval on, until capacity more events have hit its patch.
 // Those that outlast the group are kept for the next one. A workgroup per chunk.
-// CPU twin: cpu_ref/stages/replay_change.cpp
+// CPU twin: cpu_ref/stages/replay/replay_change.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "replay/replay_layout.h"

@@ -1,7 +1,7 @@
 // Replay, stage "count": the corners of the rectangle of patches that hold an event, so that sums along rows and columns
 // (running_sums.comp) give the hits of each chunk on each patch. A workgroup per chunk; a count does not depend on
 // order, so atomics are exact.
-// CPU twin: cpu_ref/stages/replay_count.cpp
+// CPU twin: cpu_ref/stages/replay/replay_count.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "replay/replay_layout.h"

@@ -1,6 +1,6 @@
 // Replay, stage "frames": the sums of the changes are the counts of the pixels at each frame; 8-bit brightness of them,
 // four pixels per word. One invocation per four pixels goes through all frames.
-// CPU twin: replay_frames() in cpu_ref/stages/replay.h
+// CPU twin: replay_frames() in cpu_ref/stages/replay/replay.h
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "replay/replay_layout.h"

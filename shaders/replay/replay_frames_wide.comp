@@ -1,6 +1,6 @@
 // Replay, stage "frames": as replay_frames_u8.comp, with 32 bits per pixel: the counts themselves, or brightness in
 // floating point, looked up and copied as bits.
-// CPU twin: replay_frames() in cpu_ref/stages/replay.h
+// CPU twin: replay_frames() in cpu_ref/stages/replay/replay.h
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "replay/replay_layout.h"

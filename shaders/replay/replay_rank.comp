@@ -3,7 +3,7 @@
 // it. Afterwards the table has the number of hits by the end of each chunk.
 // Lane (a, b) of a team owns the patches (i, j) with i = a mod kTeamX and j = b mod kTeamY: no other lane touches them,
 // so there are no atomics and no barriers. A team lies within one subgroup, whose size the pipeline requires.
-// CPU twin: cpu_ref/stages/replay_rank.cpp
+// CPU twin: cpu_ref/stages/replay/replay_rank.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -32,7 +32,7 @@ void main() {
   const uint base = chunk * push.stride;
   const uint waste = base + push.patches + lane;  // a masked load costs more than one that nobody needs
   const uint end = chunk_begin(chunk + 1);
-  // Trips: see rank_trips() in src/replay/plan.cpp.
+  // Trips: see rank_trips() in src/pipelines/replay/plan.cpp.
   for (uint block = chunk_begin(chunk); block < end; block += kTeamLanes) {
     const uint own = block + lane;
     const uint xy = event_at(min(own, end - 1));

@@ -1,6 +1,6 @@
 // Replay, stage "scan": hits per chunk become the number of hits before each chunk, one invocation per patch. The heads
 // advance: where the ring would be written next before this group, and behind it.
-// CPU twin: cpu_ref/stages/replay_scan.cpp
+// CPU twin: cpu_ref/stages/replay/replay_scan.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "replay/replay_layout.h"

@@ -1,6 +1,6 @@
 // SCARF, stage "append": events are stored in their order, from the rings' heads on, instead of count, sum, scan and
 // place. For devices of few cores: each subgroup goes through all events, for patches that are its alone.
-// CPU twin: cpu_ref/stages/scarf_append.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_append.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_8bit_storage : require
@@ -145,7 +145,7 @@ void main() {
   const uint lane = gl_SubgroupInvocationID;
   uint block = 0;
   // Loops end at their ends only, where a branch skips them on CPU devices. Trips: see trips_per_block() in
-  // src/scarf/plan.cpp.
+  // src/pipelines/scarf/plan.cpp.
   do {
     const Walked own = walk(lane < kBlock ? block + lane : push.events, part);
     uint left = subgroupBallot(own.columns != 0xFFFF).x;

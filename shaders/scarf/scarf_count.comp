@@ -1,6 +1,6 @@
 // SCARF, stage "count": events of each chunk in each class of pixels; the pixels of a class lie in the same patches.
 // One invocation per event: a count does not depend on order, so atomics are exact.
-// CPU twin: cpu_ref/stages/scarf_count.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_count.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/layout.h"

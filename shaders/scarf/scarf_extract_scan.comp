@@ -1,5 +1,5 @@
 // SCARF, stage "extract_scan": per-patch counts become the places of their first events, in patch order.
-// One workgroup. CPU twin: cpu_ref/stages/scarf_extract.cpp
+// One workgroup. CPU twin: cpu_ref/stages/scarf/scarf_extract.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/layout.h"
@@ -14,7 +14,7 @@ shared uint sums[kScanGroup];
 
 void main() {
   // Each invocation takes a contiguous run of patches. Trips: 2 * (run + 1) + kScanGroup + 2; kMaxPatches in
-  // src/scarf/plan.h keeps the run below 16,384.
+  // src/pipelines/scarf/plan.h keeps the run below 16,384.
   const uint lane = gl_LocalInvocationID.x;
   const uint run = (push.patches + kScanGroup - 1) / kScanGroup;
   const uint begin = min(lane * run, push.patches);

@@ -1,5 +1,5 @@
 // SCARF, stage "extract_write": the events of each patch, oldest to newest, at the places that the scan gave.
-// CPU twin: cpu_ref/stages/scarf_extract.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_extract.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require

@@ -1,7 +1,7 @@
 // SCARF, stage "paint": the 8-bit picture of the cells whose patches changed since they were last painted, from the
 // positions that the place and append stages keep. For small cells and capacities, and levels that do not change beyond the
 // eighth (Plan::paints); others take render and tone.
-// CPU twin: cpu_ref/stages/scarf_paint.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_paint.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_8bit_storage : require

@@ -1,5 +1,5 @@
 // SCARF, stage "place": the chunks are walked again, and the hits that survive the batch are stored in their slots.
-// CPU twin: cpu_ref/stages/scarf_place.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_place.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_8bit_storage : require
@@ -41,7 +41,7 @@ void place_hit(Lane lane, uint i, uint j, Walked e) {
 }
 
 // The hits of an event on all patches that the lane owns. Small teams are spelled out: their loops would cost trips,
-// see trips_per_block() in src/scarf/plan.cpp.
+// see trips_per_block() in src/pipelines/scarf/plan.cpp.
 void place_event(Lane lane, Walked e) {
   const uint i = first_owned(e.columns & 0xFFFF, lane.x, kTeamX);
   const uint j = first_owned(e.rows & 0xFFFF, lane.y, kTeamY);

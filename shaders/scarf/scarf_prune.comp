@@ -1,6 +1,6 @@
 // SCARF, stage "prune": where the events of a chunk have no surviving hit at all, so that they need not be walked.
 // Events whose fields begin at the same patch are judged together, by all patches that any of them can hit.
-// CPU twin: cpu_ref/stages/scarf_prune.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_prune.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/layout.h"

@@ -1,6 +1,6 @@
 // SCARF, stage "render": the active stored events of each patch, together or told apart by polarity, are counted into
 // the pixels of its cell.
-// CPU twin: cpu_ref/stages/scarf_render.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_render.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require

@@ -1,5 +1,5 @@
 // SCARF, stage "scan": per patch, the chunks' hits become cursors, and head and laps advance.
-// CPU twin: cpu_ref/stages/scarf_scan.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_scan.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require

@@ -1,5 +1,5 @@
 // SCARF, stage "settle": the laps that the append stage counted in the heads join the laps, so that a head never overflows.
-// CPU twin: cpu_ref/stages/scarf_settle.cpp
+// CPU twin: cpu_ref/stages/scarf/scarf_settle.cpp
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require

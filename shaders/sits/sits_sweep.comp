@@ -114,7 +114,7 @@ void store_values(Tile tile) {
 // Returns whether the lane saw anything new.
 bool replay(Tile tile) {
   bool found = false;
-  // Trips: see sits_trips_per_block() in src/representations/sits.cpp.
+  // Trips: see sits_trips_per_block() in src/pipelines/sits/sits.cpp.
   for (uint block = tile.begin; block < tile.end; block += kTeamLanes) {
     const uint own = block + gl_SubgroupInvocationID;
     const uint own_event = lists[min(own, tile.end - 1)];

@@ -26,7 +26,7 @@ void set_values(uint place, ivec2 pair) { values[place] = packUint2x32(uvec2(pai
 void main() {
   if (push.only_unsettled != 0 && unsettled[push.sweeps - 1] == 0) return;
   const ivec2 size = ivec2(push.width, push.height);
-  // Trips: see sits_trips_per_block() in src/representations/sits.cpp.
+  // Trips: see sits_trips_per_block() in src/pipelines/sits/sits.cpp.
   for (uint block = 0; block < push.events; block += kTeamLanes) {
     const uint own_event = min(block + gl_SubgroupInvocationID, push.events - 1);
     const uint own_xy = event_at(push.first_event + own_event).z;

@@ -1,5 +1,6 @@
 // The public face of a Vulkan device.
 #include "scarf/device/context.h"
+
 #include "vulkan/device.h"
 
 namespace scarf {

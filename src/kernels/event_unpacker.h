@@ -1,4 +1,4 @@
-// Packed events (core/event_packer.h) to events as pipelines bind them, on the device.
+// Packed events (layout/event_packer.h) to events as pipelines bind them, on the device.
 #pragma once
 
 #include <cstdint>

@@ -11,11 +11,11 @@
 
 namespace scarf {
 
-/// Fills memory with blocks of up to 256 events; the layout is in shaders/unpack_layout.h. Within a block
-/// times are offsets from its earliest one, so that each event can be unpacked by itself, and back-steps cost
-/// nothing. How many bits a word has for them depends on the sensor: 10 at 1280x720, 3 at 16,384x16,384. A
-/// block whose times are too far apart for that has 1 or 2 bytes more per event; one that spans still more,
-/// or has an event that no word can hold (one far outside the sensor), is stored as it is.
+/// Fills memory with blocks of up to 256 events; the layout is in shaders/decode/unpack_layout.h. Within a
+/// block times are offsets from its earliest one, so that each event can be unpacked by itself, and
+/// back-steps cost nothing. How many bits a word has for them depends on the sensor: 10 at 1280x720, 3 at
+/// 16,384x16,384. A block whose times are too far apart for that has 1 or 2 bytes more per event; one that
+/// spans still more, or has an event that no word can hold (one far outside the sensor), is stored as it is.
 class EventPacker {
  public:
   /// Words of memory for `most_events` events in the worst case, and any parts of them.

@@ -9,7 +9,7 @@
 namespace scarf {
 
 // Bits 0..6 patch-local x, 7..13 patch-local y, 14 polarity, 15..63 signed microseconds since the stream's
-// first event. The shaders pack and unpack the same way (shaders/packed_event.glsl).
+// first event. The shaders pack and unpack the same way (shaders/common/packed_event.glsl).
 inline constexpr int kPackedYShift = 7;
 inline constexpr int kPackedPolarityShift = 14;
 inline constexpr int kPackedTimeShift = 15;

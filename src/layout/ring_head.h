@@ -6,7 +6,8 @@
 namespace scarf {
 
 // Bits 0..15 of a head are the slot of the next event, bits 16..31 the laps since these were last added to
-// the laps of the ring: how often it was filled. The shaders see it the same way (shaders/ring_head.glsl).
+// the laps of the ring: how often it was filled. The shaders see it the same way
+// (shaders/common/ring_head.glsl).
 inline constexpr int kHeadLapsShift = 16;
 /// Laps that a head can hold.
 inline constexpr uint64_t kMostHeadLaps = 65'535;

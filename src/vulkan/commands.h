@@ -47,7 +47,7 @@ class Commands {
   /// follows.
   Result<void> begin();
   /// Runs the kernel on at least `invocations` of it, in workgroups of `workgroup_size`; see linear_index()
-  /// in shaders/invocation.glsl. No invocations: nothing is recorded.
+  /// in shaders/common/invocation.glsl. No invocations: nothing is recorded.
   template <class Push>
   void dispatch(const BoundKernel& bound, uint64_t invocations, uint32_t workgroup_size, const Push& push) {
     static_assert(sizeof(Push) <= kMaxPushBytes);

@@ -13,7 +13,7 @@
 namespace scarf::vulkan {
 
 /// How a kernel sees a buffer. All but `storage` are texel buffers where Limits::texel_views says so, and
-/// storage buffers elsewhere: see shaders/views.glsl.
+/// storage buffers elsewhere: see shaders/common/views.glsl.
 enum class View {
   storage,  ///< a storage buffer
   vectors,  ///< read, four words at a time; or a uniform texel buffer (usamplerBuffer)

@@ -28,7 +28,8 @@ TEST(Result, MapsValuesAndKeepsErrors) {
 
 TEST(Result, MovesValuesThatCannotBeCopied) {
   Result<std::unique_ptr<int>> made = std::make_unique<int>(5);
-  const auto doubled = std::move(made).map([](std::unique_ptr<int> n) { return std::make_unique<int>(2 * *n); });
+  const auto doubled =
+      std::move(made).map([](std::unique_ptr<int> n) { return std::make_unique<int>(2 * *n); });
   EXPECT_EQ(**doubled, 10);
 }
 

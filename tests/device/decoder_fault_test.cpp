@@ -18,7 +18,7 @@ const test::Bytes kWords = test::random_words(CameraWords::evt3, test::Mixture::
 
 struct Outcome {
   std::optional<Error> error;  // the first one
-  int calls_before = 0;        // the decoder is made: tests/scarf/fault_test.cpp has those fail
+  int calls_before = 0;        // the decoder is made: tests/device/fault_test.cpp has those fail
   std::optional<std::vector<uint8_t>> state;
   std::optional<ReadReport> report;
 };

@@ -21,7 +21,8 @@
 
 namespace scarf::tools {
 
-/// Whether a process has read something of a file that it has open: its place in it is no longer the beginning.
+/// Whether a process has read something of a file that it has open: its place in it is no longer the
+/// beginning.
 inline bool has_read(const std::filesystem::path& descriptor) {
   std::ifstream info(descriptor.parent_path().parent_path() / "fdinfo" / descriptor.filename());
   std::string word;

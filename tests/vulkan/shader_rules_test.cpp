@@ -11,7 +11,7 @@ namespace scarf {
 namespace {
 
 // Where a line compares the bits of a mask, a & b, with a number: a condition on single bits; see
-// shaders/bits.glsl.
+// shaders/common/bits.glsl.
 std::vector<std::string> bit_conditions(const std::string& line) {
   static const std::regex condition(R"([^&]&(?!&)[^&|<>?;]*\)\s*[!=]=|[!=]=\s*\(?[^&|()<>?;]*[^&]&(?!&)|)"
                                     R"((bit_of|packed_polarity)\([^;?]*\)\s*[!=]=)");

@@ -1,4 +1,4 @@
-// Twins of shaders/decode_fold.comp and decode_scan.comp.
+// Twins of shaders/decode/decode_fold.comp and decode_scan.comp.
 #include <algorithm>
 
 #include "cpu_ref/stages/decode/decode.h"

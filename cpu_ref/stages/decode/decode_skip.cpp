@@ -1,4 +1,4 @@
-// Twins of shaders/decode_skip.comp and decode_skip_scan.comp.
+// Twins of shaders/decode/decode_skip.comp and decode_skip_scan.comp.
 #include <array>
 
 #include "cpu_ref/stages/decode/decode.h"

@@ -1,4 +1,4 @@
-// Twins of shaders/decode_count.comp, decode_total.comp and decode_write.comp.
+// Twins of shaders/decode/decode_count.comp, decode_total.comp and decode_write.comp.
 #include <algorithm>
 #include <limits>
 

@@ -1,4 +1,4 @@
-// Twin of shaders/unpack_events.comp.
+// Twin of shaders/decode/unpack_events.comp.
 #include "cpu_ref/stages/decode/unpack_events.h"
 
 #include <algorithm>

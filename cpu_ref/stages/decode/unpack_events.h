@@ -9,7 +9,7 @@
 
 namespace scarf::stages {
 
-/// shaders/unpack_events.comp: the events of a part; push.events of them.
+/// shaders/decode/unpack_events.comp: the events of a part; push.events of them.
 void unpack_events(std::span<const uint32_t> packed, std::span<Event> events, const layout::UnpackPush& push);
 
 }  // namespace scarf::stages

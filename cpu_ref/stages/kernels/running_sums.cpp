@@ -1,4 +1,4 @@
-// Twin of shaders/running_sums.comp.
+// Twin of shaders/kernels/running_sums.comp.
 #include "cpu_ref/stages/scarf/stages.h"
 
 namespace scarf::stages {

@@ -14,16 +14,16 @@ struct ReplayEvents {
   std::span<const layout::ReplayChunk> chunks;
 };
 
-/// shaders/replay_count.comp and running_sums.comp: adds the hits of each chunk on each patch to `table`
-/// (chunk-major, push.stride).
+/// shaders/replay/replay_count.comp and running_sums.comp: adds the hits of each chunk on each patch to
+/// `table` (chunk-major, push.stride).
 void replay_count(const ReplayEvents& group, std::span<const uint32_t> ranges, std::span<uint32_t> table,
                   const layout::ReplayPush& push);
 
-/// shaders/replay_scan.comp: hits become hits before; heads (before and behind the group) advance.
+/// shaders/replay/replay_scan.comp: hits become hits before; heads (before and behind the group) advance.
 void replay_scan(std::span<uint32_t> table, std::span<uint32_t> heads, const layout::ReplayPush& push);
 
-/// shaders/replay_rank.comp: the rank of each event among the hits of the patch in whose cell it is; events
-/// in no cell are left out. Hits before each chunk become hits by its end.
+/// shaders/replay/replay_rank.comp: the rank of each event among the hits of the patch in whose cell it is;
+/// events in no cell are left out. Hits before each chunk become hits by its end.
 void replay_rank(const ReplayEvents& group, std::span<const uint32_t> ranges, std::span<uint32_t> table,
                  std::span<uint32_t> ranks, const layout::ReplayPush& push);
 
@@ -36,15 +36,15 @@ struct ReplayState {
   std::span<uint32_t> pixels;
 };
 
-/// shaders/replay_carry.comp: the kept events that the group pushes out.
+/// shaders/replay/replay_carry.comp: the kept events that the group pushes out.
 void replay_carry(const ReplayEvents& group, const ReplayState& state, const layout::ReplayPush& push);
 
-/// shaders/replay_change.comp: the events of the group.
+/// shaders/replay/replay_change.comp: the events of the group.
 void replay_change(const ReplayEvents& group, std::span<const uint32_t> ranks, const ReplayState& state,
                    const layout::ReplayPush& push);
 
-/// shaders/replay_frames_u8.comp and replay_frames_wide.comp: `levels` of the sums of `changes`, for pictures
-/// of 4 * push.invocations pixels; `counts` (packed as the changes are, count_bits each) advances.
+/// shaders/replay/replay_frames_u8.comp and replay_frames_wide.comp: `levels` of the sums of `changes`, for
+/// pictures of 4 * push.invocations pixels; `counts` (packed as the changes are, count_bits each) advances.
 template <class Level>
 void replay_frames(std::span<const uint32_t> changes, std::span<uint32_t> counts,
                    std::span<const Level> levels, std::span<Level> pictures, uint32_t count_bits,

@@ -1,4 +1,4 @@
-// Twin of shaders/replay_carry.comp.
+// Twin of shaders/replay/replay_carry.comp.
 #include "cpu_ref/stages/replay/replay.h"
 #include "cpu_ref/stages/replay/replay_walk.h"
 

@@ -1,4 +1,4 @@
-// Twin of shaders/replay_count.comp and running_sums.comp.
+// Twin of shaders/replay/replay_count.comp and running_sums.comp.
 #include "cpu_ref/stages/replay/replay.h"
 #include "cpu_ref/stages/replay/replay_walk.h"
 

@@ -1,4 +1,4 @@
-// Twin of shaders/replay_rank.comp.
+// Twin of shaders/replay/replay_rank.comp.
 #include "cpu_ref/stages/replay/replay.h"
 #include "cpu_ref/stages/replay/replay_walk.h"
 

@@ -1,4 +1,4 @@
-// Twin of shaders/replay_scan.comp.
+// Twin of shaders/replay/replay_scan.comp.
 #include "cpu_ref/stages/replay/replay.h"
 
 namespace scarf::stages {

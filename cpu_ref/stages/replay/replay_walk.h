@@ -1,4 +1,4 @@
-// What the twins of the replay's stages share; shaders/replay.glsl and replay_changes.glsl.
+// What the twins of the replay's stages share; shaders/replay/replay.glsl and replay_changes.glsl.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the twins of the render and extract stages share; shaders/scarf_patch.glsl.
+// What the twins of the render and extract stages share; shaders/scarf/scarf_patch.glsl.
 #pragma once
 
 #include <algorithm>

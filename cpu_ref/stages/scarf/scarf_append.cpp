@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_append.comp.
+// Twin of shaders/scarf/scarf_append.comp.
 #include "cpu_ref/stages/scarf/stages.h"
 #include "cpu_ref/stages/scarf/walk.h"
 #include "layout/ring_head.h"

@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_count.comp.
+// Twin of shaders/scarf/scarf_count.comp.
 #include "cpu_ref/stages/scarf/stages.h"
 
 namespace scarf::stages {

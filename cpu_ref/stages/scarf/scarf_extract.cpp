@@ -1,4 +1,4 @@
-// Twins of shaders/scarf_extract_count.comp, scarf_extract_scan.comp and scarf_extract_write.comp.
+// Twins of shaders/scarf/scarf_extract_count.comp, scarf_extract_scan.comp and scarf_extract_write.comp.
 #include "cpu_ref/stages/scarf/patch.h"
 #include "cpu_ref/stages/scarf/stages.h"
 #include "layout/packed_event.h"

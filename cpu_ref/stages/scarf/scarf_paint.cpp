@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_paint.comp.
+// Twin of shaders/scarf/scarf_paint.comp.
 #include "cpu_ref/stages/scarf/stages.h"
 
 namespace scarf::stages {

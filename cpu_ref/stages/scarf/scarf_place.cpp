@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_place.comp.
+// Twin of shaders/scarf/scarf_place.comp.
 #include "cpu_ref/stages/scarf/stages.h"
 #include "cpu_ref/stages/scarf/walk.h"
 

@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_prune.comp.
+// Twin of shaders/scarf/scarf_prune.comp.
 #include <algorithm>
 
 #include "cpu_ref/stages/scarf/stages.h"

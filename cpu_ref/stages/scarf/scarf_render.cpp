@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_render.comp.
+// Twin of shaders/scarf/scarf_render.comp.
 #include "cpu_ref/stages/scarf/patch.h"
 #include "cpu_ref/stages/scarf/stages.h"
 

@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_scan.comp.
+// Twin of shaders/scarf/scarf_scan.comp.
 #include <algorithm>
 
 #include "cpu_ref/stages/scarf/stages.h"

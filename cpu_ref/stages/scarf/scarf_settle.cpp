@@ -1,4 +1,4 @@
-// Twin of shaders/scarf_settle.comp.
+// Twin of shaders/scarf/scarf_settle.comp.
 #include "cpu_ref/stages/scarf/stages.h"
 #include "layout/ring_head.h"
 

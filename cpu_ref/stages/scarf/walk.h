@@ -1,4 +1,4 @@
-// The walk over the hits of a batch, and what a patch keeps of one: shaders/scarf_hit.glsl.
+// The walk over the hits of a batch, and what a patch keeps of one: shaders/scarf/scarf_hit.glsl.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 
 namespace scarf {
 
-/// SCARF, see scarf/scarf.h.
+/// SCARF, see scarf/core/patch_state.h.
 struct ScarfParameters {
   Preset preset = Preset::paper;
   PresetParameters grid = {};

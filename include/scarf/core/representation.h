@@ -19,7 +19,7 @@ struct PushReport {
   uint64_t outside = 0;   ///< accepted events outside the sensor: counted and dropped
 };
 
-/// What became of the events of a stream at one noise filter in front of it (scarf/filter.h).
+/// What became of the events of a stream at one noise filter in front of it (scarf/core/filter.h).
 struct FilterReport {
   uint64_t passed = 0;    ///< inside the sensor and handed on
   uint64_t rejected = 0;  ///< inside the sensor and not handed on
@@ -31,7 +31,7 @@ struct FilterReport {
 /// The time of a pixel that never fired, in raw images and states.
 inline constexpr int64_t kNeverFired = INT64_MIN;
 
-/// One stream's representation. What each one is, and which parameters it has: scarf/parameters.h.
+/// One stream's representation. What each one is, and which parameters it has: scarf/core/parameters.h.
 /// Implementations (the CPU reference, the GPU) agree bit for bit on everything they hand out, for any stream
 /// and any way of cutting it into batches; aed_sae and aae agree within the bounds of
 /// docs/REPRESENTATIONS.md.

@@ -33,9 +33,9 @@ struct Error {
   std::string message;
 };
 
-/// A value or the Error that prevented it. Whoever takes the value without having looked, or the error of what
-/// went well, ends the program (std::terminate): nothing is thrown, and nothing goes on with a value that is
-/// none.
+/// A value or the Error that prevented it. Whoever takes the value without having looked, or the error of
+/// what went well, ends the program (std::terminate): nothing is thrown, and nothing goes on with a value
+/// that is none.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -17,9 +17,9 @@ namespace scarf {
 /// the text header of a file. docs/FORMATS.md says what each word means.
 enum class CameraWords { evt2, evt3 };
 
-/// Feeds one representation on a device. Event for event the same as the reader of the format (scarf/io.h)
-/// and GpuRepresentation::push behind it, for any bytes and any way of cutting them; events outside the
-/// sensor are dropped here, as readers do.
+/// Feeds one representation on a device. Event for event the same as the reader of the format
+/// (scarf/io/recordings.h) and GpuRepresentation::push behind it, for any bytes and any way of cutting them;
+/// events outside the sensor are dropped here, as readers do.
 ///
 /// Words are gathered like pushed events: every query of the representation sees exactly the bytes whose push
 /// returned before it. The host has to know how many events there are before the representation can take

@@ -1,4 +1,4 @@
-// The words of a recording as they are in the file, for a decoder elsewhere (scarf/gpu_decoding.h).
+// The words of a recording as they are in the file, for a decoder elsewhere (scarf/device/decoder.h).
 #pragma once
 
 #include <cstddef>

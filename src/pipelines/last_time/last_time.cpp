@@ -10,6 +10,7 @@
 #include "kernels/tone.h"
 #include "layout/words.h"
 #include "pipelines/base/pipelines.h"
+#include "scarf/core/representation.h"
 
 namespace scarf {
 namespace {

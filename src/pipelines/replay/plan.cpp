@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kMostGroupEvents = 1u << 24;  // ranks within a group are signed and have 32 bits
 constexpr uint32_t kMostGroupFrames = 4096;
-constexpr uint32_t kMostChunks = 1u << 16;  // see chunk_beyond() in shaders/replay_changes.glsl
+constexpr uint32_t kMostChunks = 1u << 16;  // see chunk_beyond() in shaders/replay/replay_changes.glsl
 constexpr uint32_t kLeastChunks = 4;        // a frame or two, and cuts of what lies between them
 
 // A group costs a walk over the rings and a few dispatches; more than that is paid back by is no better.

@@ -22,7 +22,7 @@ struct ReplayPlan {
   uint32_t pixels = 0;  ///< of a picture
 
   // A team has team_x * team_y lanes, both powers of two; a lane owns up to lane_columns * lane_rows patches
-  // of one event. See shaders/replay_rank.comp.
+  // of one event. See shaders/replay/replay_rank.comp.
   uint32_t team_x = 1;
   uint32_t team_y = 1;
   uint32_t lane_columns = 1;

@@ -55,7 +55,7 @@ bool few(std::span<const uint8_t> levels) {
                      [&](uint8_t level) { return level == levels[kLast]; });
 }
 
-constexpr uint32_t kMaxTeamLanes = 32;  // see team_ballot() in shaders/team.glsl
+constexpr uint32_t kMaxTeamLanes = 32;  // see team_ballot() in shaders/common/team.glsl
 // Teams that take events together compare each with each.
 constexpr uint32_t kMostTeams = 4;
 

@@ -31,7 +31,7 @@ struct Chunking {
       false;  ///< so many hits do not survive that it pays to find out which events have none that do
 };
 
-/// How the append stage divides the patches: see shaders/scarf_append.comp.
+/// How the append stage divides the patches: see shaders/scarf/scarf_append.comp.
 struct AppendPlan {
   uint32_t lanes = 1;  ///< of a subgroup, which a workgroup is
   // As those of Plan, of the rows of one part.
@@ -56,7 +56,7 @@ struct Plan {
   uint32_t most_columns = 1;  ///< most patches per axis that hold one pixel
   uint32_t most_rows = 1;
   // A team has team_x * team_y lanes, both powers of two; a lane owns up to lane_columns * lane_rows patches
-  // of one event. See shaders/team.glsl.
+  // of one event. See shaders/common/team.glsl.
   uint32_t team_x = 1;
   uint32_t team_y = 1;
   uint32_t lane_columns = 1;
@@ -69,12 +69,12 @@ struct Plan {
 
   uint32_t class_columns = 1;  ///< classes of columns and of rows, class 0 included; see PixelClasses
   uint32_t class_rows = 1;
-  uint32_t stripes = 1;  ///< see shaders/team.glsl; likewise the next two
+  uint32_t stripes = 1;  ///< see shaders/common/team.glsl; likewise the next two
   uint32_t bands = 1;
   uint32_t band_rows = 0;
 
   bool paints = false;           ///< 8-bit pictures come from the paint stage, which keeps them
-  uint32_t cell_row_words = 0;   ///< of the positions that it needs; see kNotShown in shaders/layout.h
+  uint32_t cell_row_words = 0;   ///< of the positions that it needs; see kNotShown in shaders/common/layout.h
   uint32_t position_groups = 0;  ///< per patch
 
   AppendPlan append;

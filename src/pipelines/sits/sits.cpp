@@ -1,6 +1,6 @@
 // sits on a device. The rule depends on the values that earlier events left behind, so events are taken in
 // their order: by one team for all of them, or by one team per tile, again and again until the tiles agree.
-// Both are exact; see shaders/sits_walk.comp and shaders/sits_sweep.comp.
+// Both are exact; see shaders/sits/sits_walk.comp and shaders/sits/sits_sweep.comp.
 #include "pipelines/sits/sits.h"
 
 #include <algorithm>

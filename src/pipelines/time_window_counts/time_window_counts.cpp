@@ -10,6 +10,7 @@
 #include "kernels/tone.h"
 #include "layout/words.h"
 #include "pipelines/base/pipelines.h"
+#include "scarf/core/representation.h"
 #include "shaders/time_window_counts/time_window_layout.h"
 
 namespace scarf {

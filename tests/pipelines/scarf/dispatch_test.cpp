@@ -28,7 +28,8 @@ TEST(WorkgroupGrid, HoldsAllWorkgroupsAndLessThanAColumnMore) {
   }
 }
 
-// What runs of the place stage without being beyond all teams; see is_beyond_teams() in shaders/team.glsl.
+// What runs of the place stage without being beyond all teams; see is_beyond_teams() in
+// shaders/common/team.glsl.
 uint64_t storing_invocations(const Plan& plan, const Chunking& chunking, uint32_t most_columns) {
   const uint64_t teams = plan.teams(chunking.chunks, chunking.stripes);
   const uint64_t wanted = ceil_div(teams * plan.team_lanes(), plan.workgroup_size());
