@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/ceil_div.h"
+#include "scarf/core/image.h"
 #include "shaders/common/layout.h"
 #include "tests/support/streams.h"
 
