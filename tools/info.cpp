@@ -183,7 +183,7 @@ Result<void> list_folder(const std::string& folder, Candidates& candidates) {
   for (const reprocess::Outcome& o : list->settled) {
     const std::string path = (std::filesystem::path(folder) / o.relative).string();
     if (o.status == reprocess::Status::failed) {
-      candidates.files.push_back({path, false, o.message});
+      candidates.files.push_back({path, false, in_options(o.message)});
     } else {
       candidates.skipped.push_back(path);
     }
@@ -204,7 +204,7 @@ Result<Candidates> candidates_of(const InfoOptions& options) {
     if (!is_folder_of_recordings(path, options)) {
       candidates.files.push_back({path, true});
     } else if (const auto r = list_folder(path, candidates); !r) {
-      candidates.files.push_back({path, true, r.error().message});
+      candidates.files.push_back({path, true, in_options(r.error().message)});
     }
   }
   return candidates;
@@ -228,12 +228,12 @@ Result<int> tell_all(const InfoOptions& options) {
       candidates->skipped.push_back(c.path);
       continue;
     }
-    if (!facts && failed++ == 0) first_failure = facts.error().message;
+    if (!facts && failed++ == 0) first_failure = in_options(facts.error().message);
     std::vector<Fact> all = {{"file", "file", c.path}};
     if (facts) {
       all.insert(all.end(), facts->begin(), facts->end());
     } else {
-      all.push_back({"error", "error", facts.error().message});
+      all.push_back({"error", "error", in_options(facts.error().message)});
     }
     if (options.json) {
       recordings.push_back(json_of(all));

@@ -1,7 +1,10 @@
 #include "tools/options.h"
 
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "output/frame_request.h"
 #include "output/product_request.h"
 #include "session/request.h"
@@ -50,6 +53,9 @@ void add_settings(CLI::App& app, const Settings& settings) {
   for (const Setting& setting : settings.all()) {
     CLI::Option* const option = add_setting(app, setting);
     if (!setting.group.empty()) option->group(setting.group);
+    if (!setting.choices.empty() && setting.kind == Setting::Kind::word) {
+      option->description(text(setting.help, " (", listed(setting.choices), ")"));
+    }
     if (setting.positional) option->required();
   }
   for (const auto& [one, other] : settings.exclusions()) {
@@ -75,7 +81,19 @@ std::string in_options(const std::string& message) {
   Settings all = stream_settings(stream);
   all.join(frame_settings(frames));
   all.join(product_settings(products, ""));
-  return with_names(message, all, option_name);
+  std::string said = with_names(message, all, option_name);
+  // What is no setting of a request.
+  for (const auto& [library, program] :
+       {std::pair{"WriteOptions::overwrite", "--overwrite"}, std::pair{"formats()", "`scarf formats`"},
+        std::pair{"name a Shard", "give --shard"},
+        std::pair{"write_state_dump() writes one", "write one with scarf digest --dump"},
+        std::pair{"use fewer workers", "use fewer --jobs"}}) {
+    for (size_t at = 0; (at = said.find(library, at)) != std::string::npos;) {
+      said.replace(at, std::string_view(library).size(), program);
+      at += std::string_view(program).size();
+    }
+  }
+  return said;
 }
 
 }  // namespace scarf::tools

@@ -69,7 +69,7 @@ std::string frames_lost(const Original& original) {
   if (!frames) {
     return frames.error().code == ErrorCode::unrecognised
                ? ""
-               : text("not copied: frames, if there are any: ", frames.error().message, "\n");
+               : text("not copied: frames, if there are any: ", in_options(frames.error().message), "\n");
   }
   const auto first = (*frames)->read();
   return first && !*first ? "" : "not copied: frames; scarf frames writes them\n";

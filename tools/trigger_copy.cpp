@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "tools/options.h"
 
 namespace scarf::tools {
 namespace {
@@ -67,7 +68,7 @@ Result<TriggerCopy> TriggerCopy::open(const Original& original, EventSink* sink,
   } else if (triggers.error().code == ErrorCode::io || original.read.strict) {
     if (triggers.error().code != ErrorCode::unrecognised) return triggers.error();
   } else if (triggers.error().code != ErrorCode::unrecognised) {
-    copy.unread_ = triggers.error().message;
+    copy.unread_ = in_options(triggers.error().message);
   }
   return copy;
 }
@@ -78,7 +79,7 @@ Result<void> TriggerCopy::fill() {
     const auto count = triggers_->read(some);
     if (!count) {
       if (count.error().code == ErrorCode::io || original_.read.strict) return count.error();
-      unread_ = count.error().message;
+      unread_ = in_options(count.error().message);
     }
     if (!count || *count == 0) {
       triggers_.reset();
@@ -107,7 +108,7 @@ Result<void> TriggerCopy::write_front() {
       ++written_;
       add(digest_, trigger);
     } else if (r.error().code == ErrorCode::bad_input && !original_.read.strict) {
-      if (refused_++ == 0) refusal_ = r.error().message;
+      if (refused_++ == 0) refusal_ = in_options(r.error().message);
     } else {
       return r;
     }

@@ -47,7 +47,7 @@ Result<StateDump> StateDump::open(const std::string& path) {
   std::array<uint8_t, kHeaderBytes> header{};
   file.read(reinterpret_cast<char*>(header.data()), header.size());
   if (!file || !std::equal(kMagic.begin(), kMagic.end(), header.begin())) {
-    return Error{ErrorCode::bad_input, text(path, " is no state dump; write one with scarf digest --dump")};
+    return Error{ErrorCode::bad_input, text(path, " is no state dump; write_state_dump() writes one")};
   }
   std::array<int32_t, kIntegers> integers{};
   for (size_t i = 0; i < kIntegers; ++i) {

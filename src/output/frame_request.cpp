@@ -23,9 +23,7 @@ Settings frame_settings(FrameRequest& o) {
   settings.add_parsed("rate", o.rate, parse_frame_rate, "Frames per second of recorded time, default 30")
       .in(when);
   settings.add_parsed("every", o.every, parse_positive, "A frame after every N events").in(when);
-  settings.add_text(Setting::Kind::word, "at", o.at, "end: one frame of the final state")
-      .in(when)
-      .one_of({"end"});
+  settings.add_text(Setting::Kind::word, "at", o.at, "One frame of the final state").in(when).one_of({"end"});
   settings.add_text(Setting::Kind::input, "at-times", o.at_times, "File with one time per line, in us")
       .in(when);
   const std::vector<std::string> instants = {"rate", "every", "at", "at-times"};
@@ -34,7 +32,7 @@ Settings frame_settings(FrameRequest& o) {
   }
   settings
       .add_parsed("times-column", o.times.column, parse_positive,
-                  "Column of the times, where the file of --at-times has several; default 1")
+                  "Column of the times, where the file of at-times has several; default 1")
       .in(when);
   settings
       .add_parsed("times-unit", o.times.exponent, parse_time_unit,
@@ -43,10 +41,9 @@ Settings frame_settings(FrameRequest& o) {
   settings.need("times-column", "at-times");
   settings.need("times-unit", "at-times");
   settings
-      .add_parsed(
-          "max-frames", o.max_frames, parse_positive,
-          "Most frames of --rate in a row without an event between them, default 10000: a longer jump "
-          "in time ends the job")
+      .add_parsed("max-frames", o.max_frames, parse_positive,
+                  "Most frames of rate in a row without an event between them, default 10000: a longer jump "
+                  "in time ends the job")
       .in(when);
   settings.add_parsed("video-fps", o.video_fps, parse_number, "Speed at which a video is shown, default 30");
   return settings;

@@ -33,7 +33,8 @@ std::string list_line(uint64_t index, const Frame& frame) {
 
 Error no_frame(const std::string& path) {
   return {ErrorCode::bad_input,
-          text("no frame was due, so ", path, " was not written; use a higher --rate, or --at end")};
+          text("no frame was due, so ", path,
+               " was not written; use a higher FrameRequest::rate, or FrameRequest::at end")};
 }
 
 class FolderWriter final : public FrameWriter {

@@ -156,8 +156,9 @@ Result<void> OwnedFiles::check(const std::vector<std::string>& files, bool repla
                       : text(path, " was not written by scarf; move it away, or give another output"));
     }
     if (!replace) {
-      return refused(
-          text(path, " is there from an earlier run; replace it with --overwrite, or give another output"));
+      return refused(text(
+          path,
+          " is there from an earlier run; replace it with WriteOptions::overwrite, or give another output"));
     }
   }
   return {};

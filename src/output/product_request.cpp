@@ -18,7 +18,7 @@ Settings product_settings(ProductRequest& request, const std::string& sparse_hel
   Settings settings("ProductRequest");
   settings
       .add_choice<bool>("pixels", request.floats, {{"u8", false}, {"float", true}},
-                        "u8 or float, default u8; float is offered for .npy and .h5", "floats")
+                        "Default u8; float is offered for .npy and .h5", "floats")
       .in(what);
   settings
       .add_text(Setting::Kind::word, "encoding", request.encoding,

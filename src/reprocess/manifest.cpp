@@ -90,8 +90,8 @@ Result<std::vector<Listed>> read_manifest(const std::string& path) {
   const auto no_list = [&] {
     return Error{ErrorCode::illegal_parameter,
                  text(path,
-                      " is neither a folder nor a list of recordings; `scarf render` takes a single "
-                      "recording")};
+                      " is neither a folder nor a list of recordings; render a single "
+                      "recording instead")};
   };
   auto lines = LineReader::open(path, kMaxLine);
   if (!lines) return Error{ErrorCode::io, text("cannot read the list ", path, ": ", lines.error().message)};

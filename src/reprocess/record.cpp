@@ -122,7 +122,7 @@ Result<Record> read_record(const std::string& path) {
     record.frames = json.at("counts").at("frames");
     return record;
   } catch (const Json::exception&) {
-    return Error{ErrorCode::bad_input, text(path, " is no record of scarf reprocess; remove it")};
+    return Error{ErrorCode::bad_input, text(path, " is no record of reprocessing; remove it")};
   }
 }
 

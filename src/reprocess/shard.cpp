@@ -21,7 +21,7 @@ Result<std::optional<uint64_t>> number(const Environment& environment, const cha
   const auto value = parse_integer<uint64_t>(*word);
   if (!value) {
     return Error{ErrorCode::bad_input, text("the environment variable ", name, " is '", *word,
-                                            "', which is no number; give --shard")};
+                                            "', which is no number; name a Shard")};
   }
   return value;
 }
@@ -35,7 +35,7 @@ Result<std::optional<Shard>> rank_of(const Environment& environment, const char*
   if (!*rank || !*size) return std::optional<Shard>();
   if (**rank >= **size) {
     return Error{ErrorCode::bad_input,
-                 text(rank_name, " is ", **rank, ", but ", size_name, " is ", **size, "; give --shard")};
+                 text(rank_name, " is ", **rank, ", but ", size_name, " is ", **size, "; name a Shard")};
   }
   return std::optional(Shard{**rank + 1, **size, rank_name});
 }
@@ -57,7 +57,7 @@ Result<std::optional<Shard>> array_task(const Environment& environment) {
   if (index >= *count || (*id - first) % stride != 0) {
     return Error{ErrorCode::bad_input,
                  text("the Slurm array has ", *count, " tasks, and its task ", *id, " is none of a row from ",
-                      first, "; use --array=0-", *count - 1, ", or give --shard")};
+                      first, "; use --array=0-", *count - 1, ", or name a Shard")};
   }
   return std::optional(Shard{index + 1, *count, names[0]});
 }
@@ -83,7 +83,7 @@ Result<Shard> parse_shard(const std::string& word) {
     const auto index = parse_integer<uint64_t>(view.substr(0, slash));
     const auto count = parse_integer<uint64_t>(view.substr(slash + 1));
     if (index && count && *index >= 1 && *index <= *count && *count <= kMaxShards) {
-      return Shard{*index, *count, "--shard"};
+      return Shard{*index, *count, "the request"};
     }
   }
   return Error{ErrorCode::illegal_parameter,

@@ -280,7 +280,7 @@ Outcome do_task(const Task& task, const Workplace& workplace, Meter& meter) {
     auto outcome = is_check ? check(task.job, workplace, meter) : process(task.job, workplace, meter);
     return outcome ? *std::move(outcome) : failed(task.job, outcome.error());
   } catch (const std::bad_alloc&) {
-    return failed(task.job, {ErrorCode::out_of_memory, "out of memory; use fewer --jobs"});
+    return failed(task.job, {ErrorCode::out_of_memory, "out of memory; use fewer workers"});
   } catch (const std::exception& e) {
     return failed(task.job, {ErrorCode::bad_input, e.what()});
   }

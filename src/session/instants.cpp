@@ -46,11 +46,11 @@ class AtRate final : public Instants {
 
  private:
   Error flood(const Event& e) const {
-    return {ErrorCode::bad_input,
-            text("event ", events_, " (t ", e.t, " us) follows one at ", previous_,
-                 " us, which makes more than ", max_empty_,
-                 " frames in a row without an event; if that is right, raise --max-frames, else cut the "
-                 "recording with `scarf cut`, or lower --rate")};
+    return {ErrorCode::bad_input, text("event ", events_, " (t ", e.t, " us) follows one at ", previous_,
+                                       " us, which makes more than ", max_empty_,
+                                       " frames in a row without an event; if that is right, raise "
+                                       "FrameRequest::max_frames, else cut the "
+                                       "recording, or lower FrameRequest::rate")};
   }
 
   Int128 time_of(Int128 frame) const {

@@ -48,30 +48,27 @@ Settings read_settings(ReadOptions& o) {
       .add_parsed("geometry", o.sensor, parse_sensor, "Sensor size WxH, where the recording does not say",
                   "sensor")
       .in(reading);
-  settings
-      .add_text(Kind::word, "format", o.format, "Format, where the content does not tell; see scarf formats")
-      .in(reading);
+  settings.add_text(Kind::word, "format", o.format, "Format, where the content does not tell").in(reading);
   settings.add_text(Kind::word, "stream", o.stream, "Which camera, of a recording with several").in(reading);
   settings
-      .add_choice<TimePolicy>(
-          "time-policy", o.time_policy,
-          {{"keep", TimePolicy::keep},
-           {"clamp", TimePolicy::clamp},
-           {"drop", TimePolicy::drop},
-           {"error", TimePolicy::error}},
-          "Events older than one before them: keep, clamp to the newest time, drop, error")
+      .add_choice<TimePolicy>("time-policy", o.time_policy,
+                              {{"keep", TimePolicy::keep},
+                               {"clamp", TimePolicy::clamp},
+                               {"drop", TimePolicy::drop},
+                               {"error", TimePolicy::error}},
+                              "Events older than one before them; clamp gives them the newest time")
       .in(reading);
   settings
       .add_choice<OutOfSensor>("out-of-sensor", o.out_of_sensor,
                                {{"drop", OutOfSensor::drop}, {"error", OutOfSensor::error}},
-                               "Events outside the sensor: drop, error")
+                               "Events outside the sensor")
       .in(reading);
   settings
       .add_choice<TimeShift>("time-shift", o.time_shift,
                              {{"none", TimeShift::none},
                               {"first-high", TimeShift::first_high},
                               {"first-event", TimeShift::first_event}},
-                             "What is subtracted from all times: none, first-high, first-event")
+                             "What is subtracted from all times")
       .in(reading);
   settings.add_flag("strict", o.strict, "Damage, unknown words and truncated bytes are errors").in(reading);
   settings
@@ -79,13 +76,10 @@ Settings read_settings(ReadOptions& o) {
                 "Order of the columns of text and plain arrays, such as txyp; or names of columns, such as "
                 "t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol (HDF5, NumPy)")
       .in(reading);
-  settings
-      .add_text(Kind::word, "time-unit", o.time_unit,
-                "Unit of times where the format leaves it open: s, ms, us, ns")
+  settings.add_text(Kind::word, "time-unit", o.time_unit, "Unit of times where the format leaves it open")
       .in(reading)
       .one_of({"s", "ms", "us", "ns"});
-  settings
-      .add_text(Kind::word, "yarp-time", o.yarp_time, "YARP packets without times of events: packet, spread")
+  settings.add_text(Kind::word, "yarp-time", o.yarp_time, "YARP packets without times of events")
       .in(reading)
       .one_of({"packet", "spread"});
   return settings;
@@ -101,9 +95,7 @@ Settings representation_settings(StreamRequest& o, const std::vector<std::string
   std::vector<std::string> names = more;
   for (const RepresentationInfo& info : representations()) names.push_back(info.name);
   Settings settings("StreamRequest");
-  settings
-      .add_text(Kind::word, "representation", o.representation, "Which picture; see scarf representations")
-      .one_of(std::move(names));
+  settings.add_text(Kind::word, "representation", o.representation, "Which picture").one_of(std::move(names));
 
   const std::string grid = "Patch grid of scarf";
   settings
@@ -127,7 +119,7 @@ Settings representation_settings(StreamRequest& o, const std::vector<std::string
       .in(with_explicit);
 
   settings.add(Kind::word, "accumulation",
-               "Brightness of one event, default 0.3 (scarf; time_window with --counts)",
+               "Brightness of one event, default 0.3 (scarf; time_window with counts)",
                [&o](const std::string& word) -> Result<void> {
                  const auto value = parse_number(word);
                  if (!value) return value.error();

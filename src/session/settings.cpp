@@ -12,17 +12,17 @@ Error illegal(const std::string& message) {
   return {ErrorCode::illegal_parameter, message};
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += text(list.empty() ? "" : ", ", word);
-  return list;
-}
-
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
 }  // namespace
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += text(list.empty() ? "" : ", ", word);
+  return list;
+}
 
 Setting& Setting::in(std::string_view name_of_group) {
   group = name_of_group;

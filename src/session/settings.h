@@ -99,6 +99,9 @@ class Settings {
   std::vector<std::pair<std::string, std::string>> needs_;
 };
 
+/// The words of a list, with commas between them.
+std::string listed(const std::vector<std::string>& words);
+
 /// Sets it to the word: one of its choices, or what `set` reads. Errors: illegal_parameter, without
 /// the setting's name.
 Result<void> set(const Setting& setting, const std::string& word);

@@ -94,7 +94,7 @@ TEST(FolderWriter, ReplacesAnEarlierRenderingAndNothingElse) {
     for (int i = 0; i < 3; ++i) ASSERT_TRUE((*writer)->write({i, 0}, ramp(i)).ok());
     ASSERT_TRUE((*writer)->finish().ok());
   }
-  EXPECT_THAT(render_one(folder.path("out"), 7, false), HasSubstr("--overwrite"));
+  EXPECT_THAT(render_one(folder.path("out"), 7, false), HasSubstr("WriteOptions::overwrite"));
   EXPECT_TRUE(fs::exists(folder.path("out/frame_000002.png")));
   EXPECT_EQ(render_one(folder.path("out"), 7, true), "");
   EXPECT_FALSE(fs::exists(folder.path("out/frame_000002.png")));

@@ -86,7 +86,7 @@ TEST(FrameRate, OneGapOfTooManyFramesIsAnErrorBeforeTheFirstOfThem) {
   const auto r = frames_at_rate({30, 1}, 100'000)->due(events, take);
   ASSERT_FALSE(r.ok());
   EXPECT_EQ(r.error().code, ErrorCode::bad_input);
-  EXPECT_THAT(r.error().message, HasSubstr("--max-frames"));
+  EXPECT_THAT(r.error().message, HasSubstr("FrameRequest::max_frames"));
   EXPECT_THAT(r.error().message, HasSubstr("event 2 (t 5000000000000 us)"));
   EXPECT_EQ(taken, 0);
 }

@@ -120,7 +120,7 @@ std::vector<FormatInfo> formats();
 /// option that is out of range or of no use to the format).
 Result<std::unique_ptr<EventSource>> open_events(const std::string& path, const ReadOptions& options = {});
 
-/// The sensor size of a source, or the error that asks for `--geometry WxH`.
+/// The sensor size of a source, or the error that asks for ReadOptions::sensor.
 Result<SensorSize> require_sensor(const EventSource& source, const std::string& path);
 
 /// A file that events are written to, in order, and triggers among them.

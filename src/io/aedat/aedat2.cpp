@@ -101,10 +101,11 @@ Error unknown_chip(const Header& header) {
   const std::string what = header.chip.empty() ? "the header names no chip (AEChip)"
                                                : text("the header names the chip ", header.chip.substr(0, 60),
                                                       ", which scarf does not know");
-  return {ErrorCode::bad_input,
-          text(what,
-               "; say with --geometry how the addresses are to be read: 128x128 as those of a DVS128, "
-               "240x180 or 346x260 as those of a DAVIS, 640x480 as v2e writes them")};
+  return {
+      ErrorCode::bad_input,
+      text(what,
+           "; say with ReadOptions::sensor how the addresses are to be read: 128x128 as those of a DVS128, "
+           "240x180 or 346x260 as those of a DAVIS, 640x480 as v2e writes them")};
 }
 
 }  // namespace
@@ -119,7 +120,7 @@ Result<Chip> read_header(ByteReader& input, std::optional<SensorSize> sensor) {
     if (!*agreed) {
       return Error{ErrorCode::bad_input,
                    text("the header names the chip ", header->chip.substr(0, 60),
-                        ", whose size scarf does not know; give it with --geometry WxH")};
+                        ", whose size scarf does not know; give it with ReadOptions::sensor WxH")};
     }
     chip = Chip{named->first, **agreed};
   } else if (sensor) {

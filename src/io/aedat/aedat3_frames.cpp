@@ -78,7 +78,7 @@ class Aedat3Frames final : public FrameSource {
   Result<void> passed(std::string damage) {
     if (strict_) {
       return Error{ErrorCode::bad_input, text(name_, ": byte ", packet_.byte, ": ", damage,
-                                              "; leave out --strict to read the rest")};
+                                              "; leave out ReadOptions::strict to read the rest")};
     }
     pass_over(packet_.byte, std::move(damage));
     return {};

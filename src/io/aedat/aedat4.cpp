@@ -91,7 +91,7 @@ Result<Header> read_header(ByteReader& input) {
   const std::string_view words(reinterpret_cast<const char*>(start.data()), start.size());
   if (!words.starts_with(kMagic)) {
     return bad(words.starts_with("#!AER-DAT")
-                   ? "this is an older AEDAT than AEDAT4: leave out --format, or name its own"
+                   ? "this is an older AEDAT than AEDAT4: leave out ReadOptions::format, or name its own"
                    : "this is no AEDAT4: it does not begin with #!AER-DAT4.0");
   }
   if (start.size() < kMagic.size() + kSizeBytes) return bad("the file ends within its header");

@@ -63,9 +63,10 @@ void Aedat4Reader::decode(uint64_t place, std::span<const uint8_t> records, std:
     if (t <= -kMaxTime || t >= kMaxTime) [[unlikely]] {
       ++tally_.report.unknown_words;
       if (tally_.strict()) {
-        tally_.fail({ErrorCode::bad_input,
-                     text("the packet at byte ", place,
-                          " has a time that scarf does not hold; leave out --strict to pass over it")});
+        tally_.fail(
+            {ErrorCode::bad_input,
+             text("the packet at byte ", place,
+                  " has a time that scarf does not hold; leave out ReadOptions::strict to pass over it")});
       }
       continue;
     }

@@ -37,10 +37,10 @@ Result<size_t> BufferedSource::read(std::span<Event> out) {
     input_.skip(decoded.bytes);
     count += decoded.events;
     if (tally_.strict() && tally_.report.unknown_words > unknown) {
-      tally_.fail(
-          {ErrorCode::bad_input, text("bytes ", place, " to ", input_.consumed(), " hold ",
-                                      tally_.report.unknown_words - unknown, " words or lines that ",
-                                      format(), " does not define; leave out --strict to pass over them")});
+      tally_.fail({ErrorCode::bad_input,
+                   text("bytes ", place, " to ", input_.consumed(), " hold ",
+                        tally_.report.unknown_words - unknown, " words or lines that ", format(),
+                        " does not define; leave out ReadOptions::strict to pass over them")});
     }
     if (!decoded.starved) continue;
     // Refilled only with empty hands: a pipe's events are not held back, and an error costs no event.
@@ -50,8 +50,9 @@ Result<size_t> BufferedSource::read(std::span<Event> out) {
       if (rest == 0) break;
       tally_.report.truncated_bytes += rest;
       if (tally_.strict()) {
-        tally_.fail({ErrorCode::bad_input, text("byte ", input_.consumed(), ": the last ", rest,
-                                                " bytes are no whole word or line; leave out --strict")});
+        tally_.fail(
+            {ErrorCode::bad_input, text("byte ", input_.consumed(), ": the last ", rest,
+                                        " bytes are no whole word or line; leave out ReadOptions::strict")});
       }
       input_.skip(rest);
       continue;

@@ -70,8 +70,9 @@ template <class Decoder>
 Result<std::unique_ptr<TriggerSource>> make_decoded_triggers(Input input, const ReadOptions& options,
                                                              Decoder decoder) {
   if (options.time_shift != TimeShift::none) {
-    return Error{ErrorCode::illegal_parameter,
-                 "--time-shift is not used by triggers; leave it out, and read the events without it"};
+    return Error{
+        ErrorCode::illegal_parameter,
+        "ReadOptions::time_shift is not used by triggers; leave it out, and read the events without it"};
   }
   return std::unique_ptr<TriggerSource>(std::make_unique<DecodedTriggers<Decoder>>(
       std::move(input.bytes), std::move(input.name), std::move(decoder)));

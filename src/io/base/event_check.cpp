@@ -9,7 +9,7 @@ std::string_view EventCheck::objection(const Event& e) const {
   if (e.p > 1) return "its polarity must be 0 or 1";
   if (!sensor_.contains(e)) return "it is outside the sensor; drop it";
   if (e.x > limits_.max_coordinate || e.y > limits_.max_coordinate) {
-    return "the format holds coordinates up to 2047 only; write another one (--output-format dat or text)";
+    return "the format holds coordinates up to 2047 only; write another one, dat or text";
   }
   if (e.t < limits_.t_min) return "the format cannot hold so early a time; shift the times or write text";
   if (e.t >= limits_.t_end) return "the format cannot hold so late a time; shift the times or write text";

@@ -65,7 +65,7 @@ size_t EventTally::keep_by_policy(std::span<Event> events) {
       fail({ErrorCode::bad_input,
             text("event ", report.events + report.outside + report.dropped + kept, " (t ", e.t, ", x ", e.x,
                  ", y ", e.y, ") is outside the sensor of ", size_text(limit_),
-                 "; correct --geometry, or use --out-of-sensor drop")});
+                 "; correct ReadOptions::sensor, or use ReadOptions::out_of_sensor drop")});
       break;
     }
     if (!in_order(e)) {
@@ -105,7 +105,7 @@ bool EventTally::in_order(Event& e) {
       break;
   }
   fail({ErrorCode::bad_input, text("an event at ", e.t, " us follows one at ", previous_,
-                                   " us; use --time-policy keep, clamp or drop")});
+                                   " us; use ReadOptions::time_policy keep, clamp or drop")});
   return false;
 }
 
@@ -113,7 +113,8 @@ void EventTally::drop(int64_t t) {
   if (failure_) return;
   if (out_of_sensor_ == OutOfSensor::error) {
     fail({ErrorCode::bad_input,
-          text("an event at ", t, " us has a coordinate that no sensor has; use --out-of-sensor drop")});
+          text("an event at ", t,
+               " us has a coordinate that no sensor has; use ReadOptions::out_of_sensor drop")});
     return;
   }
   Event e;
@@ -139,12 +140,13 @@ void EventTally::leave_out_polarity(std::string_view unit, uint64_t place) {
   if (!strict_) return;
   fail({ErrorCode::bad_input, text(unit, " ", place,
                                    " holds an event whose polarity the format does not define; leave out "
-                                   "--strict to pass over it")});
+                                   "ReadOptions::strict to pass over it")});
 }
 
 void EventTally::note_damage(uint64_t byte, std::string what) {
   if (strict_)
-    fail({ErrorCode::bad_input, text("byte ", byte, ": ", what, "; leave out --strict to read the rest")});
+    fail({ErrorCode::bad_input,
+          text("byte ", byte, ": ", what, "; leave out ReadOptions::strict to read the rest")});
   ++report.damages;
   if (!report.damage) report.damage = Damage{byte, std::move(what)};
 }

@@ -24,11 +24,11 @@ Result<size_t> choose_stream(const std::string& wanted, std::span<const StreamNa
       if (streams[i].name == wanted) return i;
     }
     return Error{ErrorCode::illegal_parameter,
-                 text("--stream ", wanted, " is not among the ", what, ": ", list(streams))};
+                 text("ReadOptions::stream ", wanted, " is not among the ", what, ": ", list(streams))};
   }
   if (streams.size() == 1) return size_t{0};
-  return Error{ErrorCode::bad_input,
-               text("the recording has several ", what, "; choose one with --stream: ", list(streams))};
+  return Error{ErrorCode::bad_input, text("the recording has several ", what,
+                                          "; choose one with ReadOptions::stream: ", list(streams))};
 }
 
 }  // namespace scarf

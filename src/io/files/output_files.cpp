@@ -119,7 +119,8 @@ Result<Place> place_at(const std::string& path, const OutputRule& rule) {
     return place;
   }
   if (!rule.overwrite()) {
-    return refused(text(path, " is there already; give another name, or --overwrite to replace it"));
+    return refused(
+        text(path, " is there already; give another name, or WriteOptions::overwrite to replace it"));
   }
   place.kind = S_ISREG(target.st_mode) ? Place::Kind::replaced : Place::Kind::direct;
   return place;

@@ -61,14 +61,15 @@ Result<TimeUnit> time_unit(const std::string& given, Family family, const EventP
   if (places.time_exponent) return unit_of(*places.time_exponent);
   if (!is_float(table.time_type())) return TimeUnit{};
   if (family == Family::other && places.fields[EventTable::t].column) {
-    return Error{ErrorCode::illegal_parameter,
-                 "the times are floating-point numbers of an unknown unit; give it with --time-unit"};
+    return Error{
+        ErrorCode::illegal_parameter,
+        "the times are floating-point numbers of an unknown unit; give it with ReadOptions::time_unit"};
   }
   if (family == Family::other && are_ambiguous(table)) {
     return Error{
         ErrorCode::bad_input,
         "the times are floating-point numbers without fractions, so that seconds and microseconds look "
-        "alike; name the unit with --time-unit"};
+        "alike; name the unit with ReadOptions::time_unit"};
   }
   return unit_of(6);
 }
@@ -124,7 +125,7 @@ class Reader final : public BlockSource {
         ++tally_.report.unknown_words;
         if (tally_.strict()) {
           tally_.fail({ErrorCode::bad_input, text("row ", block_row_ + at_, " has no time that scarf holds; ",
-                                                  "leave out --strict to pass over it")});
+                                                  "leave out ReadOptions::strict to pass over it")});
         }
       } else if (p_[at_] == kUndefined) {
         tally_.leave_out_polarity("row", block_row_ + at_);

@@ -62,7 +62,7 @@ Result<void> EventTable::add_numbers(Dataset dataset, const Fields& fields) {
     if (!place->column && columns != 1) return bad(text(path, " is no column: it has further dimensions"));
     if (place->columns > 0 && (columns != place->columns || dataset.shape().size() != 2)) {
       return bad(text(path, " has ", columns, " columns, not ", place->columns,
-                      "; name them with --columns, with _ for columns to skip"));
+                      "; name them with ReadOptions::columns, with _ for columns to skip"));
     }
     const size_t column = place->column.value_or(0);
     if (column >= columns || columns > kMaxColumns) {

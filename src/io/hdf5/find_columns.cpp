@@ -140,7 +140,7 @@ Result<FieldPlace> place_named(const Handle& file, const NamedColumn& named) {
     }
   }
   const auto columns = contents_of(file).columns;
-  return bad(text("has no dataset ", named.name, " of --columns; ",
+  return bad(text("has no dataset ", named.name, " of ReadOptions::columns; ",
                   columns.empty() ? "it holds no columns of numbers" : text("it holds ", list_of(columns))));
 }
 
@@ -148,7 +148,8 @@ Result<EventPlaces> events_named(const Handle& file, const ReadOptions& options)
   const auto named = named_columns_from(options.columns);
   if (!named) return named.error();
   if (!options.stream.empty()) {
-    return Error{ErrorCode::illegal_parameter, "--columns names the datasets; leave out --stream"};
+    return Error{ErrorCode::illegal_parameter,
+                 "ReadOptions::columns names the datasets; leave out ReadOptions::stream"};
   }
   EventPlaces places;
   for (size_t i = 0; i < named->size(); ++i) {
@@ -195,7 +196,7 @@ Result<EventPlaces> find_events(const Handle& file, const ReadOptions& options) 
                  text("this HDF5 file has no events: no columns whose names scarf knows; ",
                       contents.columns.empty() ? "it holds no columns of numbers"
                                                : text("it holds ", list_of(contents.columns),
-                                                      ", which --columns "
+                                                      ", which ReadOptions::columns "
                                                       "can name, such as t=/a/ts,x=/a/xs,y=/a/ys,p=/a/pol"))};
   }
   std::vector<StreamName> names;

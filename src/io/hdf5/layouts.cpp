@@ -162,7 +162,7 @@ Result<std::string> place_of(const Handle& file, const Layout& layout, const std
     list += text(list.empty() ? "" : ", ", stream);
   }
   return Error{ErrorCode::illegal_parameter,
-               wanted.empty() ? text("has several streams; choose one with --stream: ", list)
+               wanted.empty() ? text("has several streams; choose one with ReadOptions::stream: ", list)
                               : text("has no stream ", wanted, "; there is ", list)};
 }
 
@@ -196,8 +196,10 @@ Result<EventPlaces> places_of(const Layout& layout, const std::string& place, co
     std::string letters = given;
     for (const std::string_view name : layout.names) letters += given.empty() ? name : "";
     if (letters.empty()) {
-      return Error{ErrorCode::illegal_parameter,
-                   text(place, " does not name its columns; give their order with --columns, such as xytp")};
+      return Error{
+          ErrorCode::illegal_parameter,
+          text(place,
+               " does not name its columns; give their order with ReadOptions::columns, such as xytp")};
     }
     const auto order = columns_from(letters);
     if (!order) return order.error();
@@ -205,7 +207,7 @@ Result<EventPlaces> places_of(const Layout& layout, const std::string& place, co
   }
   if (!given.empty()) {
     return Error{ErrorCode::illegal_parameter,
-                 text("--columns ", given, " is for arrays without names; ",
+                 text("ReadOptions::columns ", given, " is for arrays without names; ",
                       place.empty() ? "the root" : place, " has names; leave it out")};
   }
   EventPlaces places;

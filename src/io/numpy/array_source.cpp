@@ -252,7 +252,7 @@ Result<bool> ArraySource::next(std::vector<Event>& block) {
     } else {
       ++tally_.report.unknown_words;
       if (tally_.strict()) {
-        tally_.fail(bad(text("row ", read_, " is no event; leave out --strict to pass over it")));
+        tally_.fail(bad(text("row ", read_, " is no event; leave out ReadOptions::strict to pass over it")));
       }
     }
     skip(1);
@@ -287,14 +287,15 @@ std::vector<ColumnLook> looks_of(std::span<const uint8_t> bytes, const NumpyHead
 Error other_columns(const std::vector<ColumnLook>& looks, const std::string& what) {
   const std::string order = likely_order(looks);
   if (order.empty()) {
-    return {ErrorCode::unrecognised,
-            text(what,
-                 "; if it holds events, name the order of the columns with --columns, such as xytp, "
-                 "with _ for columns to skip")};
+    return {
+        ErrorCode::unrecognised,
+        text(what,
+             "; if it holds events, name the order of the columns with ReadOptions::columns, such as xytp, "
+             "with _ for columns to skip")};
   }
   return bad(text(what,
-                  "; name the order of the columns with --columns; the first rows would allow "
-                  "--columns ",
+                  "; name the order of the columns with ReadOptions::columns; the first rows would allow "
+                  "ReadOptions::columns ",
                   order));
 }
 
@@ -315,7 +316,7 @@ Result<int> unit_of_times(const EventArrays& arrays, size_t rows, const ReadOpti
   if (!look.has_fractions() && !look.is_zero()) {
     return bad(
         "the times are floating-point numbers without fractions, so that seconds and microseconds look "
-        "alike; name the unit with --time-unit");
+        "alike; name the unit with ReadOptions::time_unit");
   }
   return 6;
 }
@@ -398,16 +399,16 @@ Result<EventArrays> columns_of_array(ByteReader bytes, const NumpyHeader& header
   size_t row_bytes = header.item_bytes;
   if (header.named) {
     if (!options.columns.empty()) {
-      return Error{
-          ErrorCode::illegal_parameter,
-          "the array names its columns; leave --columns out, or name fields, such as t=ts,x=x,y=y,p=on"};
+      return Error{ErrorCode::illegal_parameter,
+                   "the array names its columns; leave ReadOptions::columns out, or name fields, such as "
+                   "t=ts,x=x,y=y,p=on"};
     }
     events.columns = known_columns(header);
     if (!holds_events(header, 0)) {
-      return Error{
-          ErrorCode::unrecognised,
-          "the array's fields are not one each for t, x, y and p; rename them, or name them with --columns, "
-          "such as t=ts,x=x,y=y,p=on"};
+      return Error{ErrorCode::unrecognised,
+                   "the array's fields are not one each for t, x, y and p; rename them, or name them with "
+                   "ReadOptions::columns, "
+                   "such as t=ts,x=x,y=y,p=on"};
     }
   } else {
     const auto columns = columns_from(options.columns.empty() ? "txyp" : options.columns);

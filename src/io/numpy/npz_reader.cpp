@@ -106,12 +106,14 @@ Result<NamedArray*> choose(std::vector<NamedArray>& arrays, const ReadOptions& o
     const bool hope = may_hold_events(arrays);
     return Error{hope ? ErrorCode::bad_input : ErrorCode::unrecognised,
                  text("none of the arrays (", names_of(all), ") has fields or columns t, x, y, p",
-                      hope ? "; name the columns of one with --stream and --columns, such as txyp_, or "
-                             "arrays with --columns, "
+                      hope ? "; name the columns of one with ReadOptions::stream and ReadOptions::columns, "
+                             "such as txyp_, or "
+                             "arrays with ReadOptions::columns, "
                              "such as t=ts,x=xs,y=ys,p=pol"
                            : "")};
   }
-  return bad(text("several arrays hold events: ", names_of(candidates), "; choose one with --stream"));
+  return bad(
+      text("several arrays hold events: ", names_of(candidates), "; choose one with ReadOptions::stream"));
 }
 
 Result<std::unique_ptr<EventSource>> open_npz(Input input, const ReadOptions& options) {
@@ -122,7 +124,8 @@ Result<std::unique_ptr<EventSource>> open_npz(Input input, const ReadOptions& op
   if (!arrays) return arrays.error();
   if (names_columns(options.columns)) {
     if (!options.stream.empty()) {
-      return Error{ErrorCode::illegal_parameter, "--columns names the arrays; leave out --stream"};
+      return Error{ErrorCode::illegal_parameter,
+                   "ReadOptions::columns names the arrays; leave out ReadOptions::stream"};
     }
     auto events = columns_by_name(*std::move(arrays), options.columns);
     if (!events) return events.error();

@@ -47,11 +47,11 @@ Result<void> check_options(const Format& format, const ReadOptions& options) {
     uint32_t option;
     std::string_view name;
   } uses[] = {
-      {!options.stream.empty(), kTakesStream, "--stream"},
-      {!options.columns.empty(), kTakesColumns, "--columns"},
-      {!options.time_unit.empty(), kTakesTimeUnit, "--time-unit"},
-      {options.time_shift == TimeShift::first_high, kTakesFirstHigh, "--time-shift first-high"},
-      {!options.yarp_time.empty(), kTakesYarpTime, "--yarp-time"},
+      {!options.stream.empty(), kTakesStream, "ReadOptions::stream"},
+      {!options.columns.empty(), kTakesColumns, "ReadOptions::columns"},
+      {!options.time_unit.empty(), kTakesTimeUnit, "ReadOptions::time_unit"},
+      {options.time_shift == TimeShift::first_high, kTakesFirstHigh, "ReadOptions::time_shift first-high"},
+      {!options.yarp_time.empty(), kTakesYarpTime, "ReadOptions::yarp_time"},
   };
   for (const auto& use : uses) {
     if (use.given && (format.options & use.option) == 0) {
@@ -93,7 +93,7 @@ Error unrecognised(const Input& input) {
   if (by_name) what = "the file does not begin as its name says, so it is cut or damaged, or no recording";
   const bool recording = input.header.has_value() || by_name;
   return {recording ? ErrorCode::bad_input : ErrorCode::unrecognised,
-          text(what, "; name the format with --format, `scarf formats` lists them")};
+          text(what, "; name the format with ReadOptions::format, formats() lists them")};
 }
 
 Result<const Format*> recognise(Input& input) {
@@ -199,9 +199,9 @@ Result<std::unique_ptr<TriggerSource>> open_triggers(const std::string& path, co
 Result<SensorSize> require_sensor(const EventSource& source, const std::string& path) {
   if (const auto sensor = source.sensor()) return *sensor;
   return as_result([&]() -> Result<SensorSize> {
-    return Error{
-        ErrorCode::bad_input,
-        text(display_name(path), ": the file does not say its sensor size; give it with --geometry WxH")};
+    return Error{ErrorCode::bad_input,
+                 text(display_name(path),
+                      ": the file does not say its sensor size; give it with ReadOptions::sensor WxH")};
   });
 }
 

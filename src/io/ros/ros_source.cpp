@@ -44,7 +44,7 @@ class RosEventSource final : public BlockSource {
     if (tally_.strict() && (report.unknown_words > unknown || report.truncated_bytes > truncated)) {
       tally_.fail({ErrorCode::bad_input,
                    text("the message at byte ", m.byte, " holds words that its encoding does not define, or ",
-                        "ends within one; leave out --strict to read the rest")});
+                        "ends within one; leave out ReadOptions::strict to read the rest")});
     }
     return true;
   }

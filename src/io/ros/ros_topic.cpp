@@ -103,7 +103,7 @@ Result<std::optional<RosMessage>> RosTopic::next() {
     if (named_ || others_.contains(m.topic)) continue;
     if (is_wanted(m)) {
       return Error{ErrorCode::bad_input, text("byte ", m.byte, ": beside ", topic_, " there is ", m.topic,
-                                              " among the ", what_, "; choose one with --stream")};
+                                              " among the ", what_, "; choose one with ReadOptions::stream")};
     }
     if (others_.size() < kMaxRosTopics) others_.insert(m.topic);
   }

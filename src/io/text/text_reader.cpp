@@ -160,12 +160,13 @@ Result<std::unique_ptr<EventSource>> open_text_lines(std::string_view format, In
       std::make_unique<TextReader>(format, std::move(input), *agreed, *std::move(layout), options));
 }
 
-const Format kTextFormat = {.name = kText,
-                            .title = "text lines `t x y p` with t in seconds, or as --columns says",
-                            .options = kTakesColumns | kTakesTimeUnit | kTakesStream,
-                            .recognise = recognise_text,
-                            .open = open_text,
-                            .create = create_text};
+const Format kTextFormat = {
+    .name = kText,
+    .title = "text lines `t x y p` with t in seconds, or as ReadOptions::columns says",
+    .options = kTakesColumns | kTakesTimeUnit | kTakesStream,
+    .recognise = recognise_text,
+    .open = open_text,
+    .create = create_text};
 
 const Format kCsvFormat = {.name = kCsv,
                            .title = "CSV lines `x,y,p,t` with t in us, as OpenEB writes them",

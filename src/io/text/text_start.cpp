@@ -165,9 +165,9 @@ bool fits(const TextStart& start, size_t columns) {
 // An order of the columns that the lines allow, as advice.
 std::string advice(const TextStart& start) {
   const std::string order = likely_order(start.looks);
-  return text("name their order with --columns",
+  return text("name their order with ReadOptions::columns",
               order.empty() ? ", such as xypt, with _ for columns to skip and c for the camera"
-                            : text("; the lines would allow --columns ", order));
+                            : text("; the lines would allow ReadOptions::columns ", order));
 }
 
 // Whether these may be events in some order, and are not to be passed over as something else.
@@ -200,9 +200,10 @@ bool are_dates(const TextStart& start, const std::vector<Column>& columns) {
 Result<std::vector<Column>> columns_of(const TextStart& start, bool csv, const ReadOptions& options) {
   const auto mismatch = [&](size_t columns) -> Error {
     if (!start.date.empty()) return dates(start);
-    return refused(start, text("the lines have ", start.looks.size(), " columns, not ", columns,
-                               "; name their order with --columns, with _ for columns to skip and c for the "
-                               "camera"));
+    return refused(
+        start, text("the lines have ", start.looks.size(), " columns, not ", columns,
+                    "; name their order with ReadOptions::columns, with _ for columns to skip and c for the "
+                    "camera"));
   };
   std::vector<Column> columns;
   if (!options.columns.empty()) {
@@ -288,7 +289,7 @@ Result<void> check_lines(const TextStart& start, const TextLayout& layout, std::
   if (unknown == 0) return {};
   return refused(start, text("none of the first ", unknown, " lines, such as ", quoted(first),
                              ", reads as an event: whole x and y, a time and a polarity; name the order of "
-                             "the columns with --columns"));
+                             "the columns with ReadOptions::columns"));
 }
 
 }  // namespace
@@ -354,18 +355,20 @@ Result<TextLayout> text_layout(const TextStart& start, std::span<const uint8_t> 
   if (!columns) return columns.error();
   const bool cameras = std::find(columns->begin(), columns->end(), Column::camera) != columns->end();
   if (cameras && options.stream.empty()) {
-    return ask("the lines name their camera; choose one with --stream, such as --stream 0");
+    return ask(
+        "the lines name their camera; choose one with ReadOptions::stream, such as ReadOptions::stream 0");
   }
   if (!cameras && !options.stream.empty()) {
     return Error{ErrorCode::illegal_parameter,
-                 "--stream needs a column with the camera, c in --columns; leave it out or name the column"};
+                 "ReadOptions::stream needs a column with the camera, c in ReadOptions::columns; leave it "
+                 "out or name the column"};
   }
   if (are_times_ambiguous(start, csv, options, *columns)) {
     return ask(
         text("the times are whole numbers, so that seconds and microseconds look alike; name the unit with "
-             "--time-unit",
+             "ReadOptions::time_unit",
              is_order_guessed(start, options)
-                 ? ", and the order of the columns with --columns if it is not t x y p"
+                 ? ", and the order of the columns with ReadOptions::columns if it is not t x y p"
                  : ""));
   }
   const bool microseconds = (start.named_on || csv) && !has_fractions(start, *columns);

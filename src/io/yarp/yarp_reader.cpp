@@ -170,7 +170,8 @@ void YarpReader::read_records(const LogLines::Line& line, std::vector<Event>& bl
     if (!camera_) camera_ = camera;
     if (camera_ != camera) {
       if (yarp_.camera) continue;
-      tally_.fail(bad("the log has events of both cameras; choose one with --stream, left or right"));
+      tally_.fail(
+          bad("the log has events of both cameras; choose one with ReadOptions::stream, left or right"));
       return;
     }
     block.push_back({t, static_cast<uint16_t>(word >> 1 & 0x7FF), static_cast<uint16_t>(word >> 12 & 0x3FF),
@@ -225,20 +226,21 @@ Result<YarpOptions> options_for(const LogStart& start, const ReadOptions& option
   const bool timed = !start.escaped || start.coding == YarpCoding::timed;
   if (!options.yarp_time.empty()) {
     if (options.yarp_time != "packet" && options.yarp_time != "spread") {
-      return illegal(text("--yarp-time is packet or spread, not '", options.yarp_time, "'"));
+      return illegal(text("ReadOptions::yarp_time is packet or spread, not '", options.yarp_time, "'"));
     }
-    if (timed) return illegal("the log has times of its events; leave --yarp-time out");
+    if (timed) return illegal("the log has times of its events; leave ReadOptions::yarp_time out");
     yarp.spread = options.yarp_time == "spread";
   }
   if (!options.time_unit.empty()) {
-    if (options.time_unit != "us") return illegal("ticks of YARP are 80 ns, or with --time-unit us 1 us");
-    if (!timed) return illegal("the log has no ticks; leave --time-unit out");
+    if (options.time_unit != "us")
+      return illegal("ticks of YARP are 80 ns, or with ReadOptions::time_unit us 1 us");
+    if (!timed) return illegal("the log has no ticks; leave ReadOptions::time_unit out");
     yarp.microsecond_ticks = true;
   }
   if (!options.stream.empty()) {
     const auto found = std::find(kCameras.begin(), kCameras.end(), options.stream);
     if (found == kCameras.end()) {
-      return illegal(text("there is no camera '", options.stream, "'; --stream is left or right"));
+      return illegal(text("there is no camera '", options.stream, "'; ReadOptions::stream is left or right"));
     }
     yarp.camera = static_cast<size_t>(found - kCameras.begin());
   }

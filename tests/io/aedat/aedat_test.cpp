@@ -108,7 +108,7 @@ TEST_F(Aedat, Version2OfV2eHasNoChip) {
   make("v2e346", kDavis346);
   expect_written(read("v2e346", {kDavis346}), "aedat2", kDavis346, 0);
   EXPECT_THAT(read("v2e346").error,
-              AllOf(HasSubstr("AEChip"), HasSubstr("--geometry"), HasSubstr("346x260")));
+              AllOf(HasSubstr("AEChip"), HasSubstr("ReadOptions::sensor"), HasSubstr("346x260")));
   EXPECT_THAT(read("v2e346", {SensorSize{100, 100}}).error, HasSubstr("128x128"));
 }
 
@@ -149,8 +149,8 @@ TEST_F(Aedat, Version3) {
 
 TEST_F(Aedat, Version3WithTwoCamerasFramesTriggersAndInvalidEvents) {
   make("aedat3-mixed", kDavis240);
-  EXPECT_THAT(read("aedat3-mixed").error,
-              AllOf(HasSubstr("--stream"), HasSubstr("0 (DAVIS240C)"), HasSubstr("1 (DAVIS346B)")));
+  EXPECT_THAT(read("aedat3-mixed").error, AllOf(HasSubstr("ReadOptions::stream"), HasSubstr("0 (DAVIS240C)"),
+                                                HasSubstr("1 (DAVIS346B)")));
   const auto r = read("aedat3-mixed", read_options("0"));
   // In each packet's company: 6 special records, a frame, the IMU, and an event that is not valid.
   EXPECT_EQ(r.report.skipped % 9, 0u);
@@ -263,9 +263,9 @@ TEST(Aedat2, UnknownChipsAreNamed) {
   const auto error = [](const std::string& chip) {
     return read_all(aedat2_file({{0, 1}}, "#!AER-DAT2.0\r\n# AEChip: a.b." + chip + "\r\n")).error;
   };
-  EXPECT_THAT(error("DAS1"), AllOf(HasSubstr("DAS1"), HasSubstr("--geometry")));
+  EXPECT_THAT(error("DAS1"), AllOf(HasSubstr("DAS1"), HasSubstr("ReadOptions::sensor")));
   EXPECT_THAT(error("Tmpdiff128StereoPair"), HasSubstr("STEREO"));
-  EXPECT_THAT(error("DAVIS999"), AllOf(HasSubstr("DAVIS999"), HasSubstr("--geometry WxH")));
+  EXPECT_THAT(error("DAVIS999"), AllOf(HasSubstr("DAVIS999"), HasSubstr("ReadOptions::sensor WxH")));
   EXPECT_THAT(read_all(bytes_of("#!AER-DAT2.0\r\n# AEChip: DV")).error, HasSubstr("header"));
 }
 
@@ -300,7 +300,7 @@ TEST(Aedat3, DamageIsTold) {
   EXPECT_THAT(other.report.damage->what, HasSubstr("camera 3"));
   EXPECT_EQ(other.report.damage->byte, header.size());
   EXPECT_THAT(read({packet(1, 3, 8, 0, 1, 1)}, true).error,
-              AllOf(HasSubstr("camera 3"), HasSubstr("--strict")));
+              AllOf(HasSubstr("camera 3"), HasSubstr("ReadOptions::strict")));
 
   for (const Bytes& hostile : {packet(1, 2, -8, 0, 1, 1), packet(1, 2, 8, 0, 1, 2), packet(1, 2, 8, -1, 1, 1),
                                packet(1, 2, 0x7FFFFFFF, 0, 0x7FFFFFFF, 1), packet(1, 2, 0, 0, 1, 1)}) {

@@ -163,7 +163,7 @@ TEST(Options, ThatAFormatHasNoUseForAreRefused) {
   ReadOptions options;
   options.columns = "xypt";
   EXPECT_THAT(read_all(evt2_file({0x80000001, 0}), options).error,
-              HasSubstr("--columns is not used by evt2"));
+              HasSubstr("ReadOptions::columns is not used by evt2"));
   options = {};
   options.format = "nonsense";
   EXPECT_THAT(read_all(evt2_file({0x80000001, 0}), options).error, HasSubstr("there are"));

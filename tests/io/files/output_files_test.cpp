@@ -64,7 +64,7 @@ class OutputFiles : public testing::Test {
 TEST_F(OutputFiles, AFileThatIsThereIsReplacedOnlyIfAskedForAndKeepsItsPermissions) {
   const std::string file = user_file("a");
   ASSERT_EQ(chmod(file.c_str(), 0640), 0);
-  expect_refused(file, OutputRule(), "--overwrite");
+  expect_refused(file, OutputRule(), "WriteOptions::overwrite");
   EXPECT_EQ(content_of(file), "precious");
   ASSERT_TRUE(write(file, OutputRule(true)).ok());
   EXPECT_EQ(content_of(file), "new");

@@ -70,7 +70,7 @@ TEST_F(Hdf5, M3edAndItsStreams) {
   if (!make({"m3ed"})) GTEST_SKIP() << kMissing;
   expect_same(read("m3ed", {.sensor = {}, .stream = "left"}), "m3ed");
   EXPECT_EQ(digest_of(read("m3ed", {.sensor = {}, .stream = "right"}).events), digest_of(mirrored()));
-  EXPECT_THAT(read("m3ed").error, AllOf(HasSubstr("--stream"), HasSubstr("left, right")));
+  EXPECT_THAT(read("m3ed").error, AllOf(HasSubstr("ReadOptions::stream"), HasSubstr("left, right")));
   EXPECT_THAT(read("m3ed", {.sensor = {}, .stream = "middle"}).error,
               AllOf(HasSubstr("middle"), HasSubstr("left, right")));
 }
@@ -114,11 +114,12 @@ TEST_F(Hdf5, OtherColumnsRecordsAndArrays) {
   expect_same(read("records", {kSensor}), "hdf5");
   expect_same(read("array-integers", {.sensor = kSensor, .columns = "txyp"}), "hdf5");
   expect_same(read("array-milliseconds", {.sensor = kSensor, .columns = "xypt", .time_unit = "ms"}), "hdf5");
-  EXPECT_THAT(read("array-integers").error, HasSubstr("--columns"));
+  EXPECT_THAT(read("array-integers").error, HasSubstr("ReadOptions::columns"));
   EXPECT_THAT(read("array-integers", {.sensor = {}, .columns = "txy"}).error, HasSubstr("txy"));
   EXPECT_THAT(read("array-integers", {.sensor = {}, .columns = "txyx"}).error, HasSubstr("txyx"));
-  EXPECT_THAT(read("array-milliseconds", {.sensor = {}, .columns = "xypt"}).error, HasSubstr("--time-unit"));
-  EXPECT_THAT(read("records", {.sensor = {}, .columns = "xypt"}).error, HasSubstr("--columns"));
+  EXPECT_THAT(read("array-milliseconds", {.sensor = {}, .columns = "xypt"}).error,
+              HasSubstr("ReadOptions::time_unit"));
+  EXPECT_THAT(read("records", {.sensor = {}, .columns = "xypt"}).error, HasSubstr("ReadOptions::columns"));
 }
 
 TEST_F(Hdf5, NamesOfOtherToolsInAnyGroup) {
@@ -139,7 +140,7 @@ TEST_F(Hdf5, ANameMaySayTheUnitOfTimes) {
 TEST_F(Hdf5, SeveralTablesAreListed) {
   if (!make({"two-tables"})) GTEST_SKIP() << kMissing;
   EXPECT_THAT(read("two-tables").error,
-              AllOf(HasSubstr("--stream"), HasSubstr("/left"), HasSubstr("/right")));
+              AllOf(HasSubstr("ReadOptions::stream"), HasSubstr("/left"), HasSubstr("/right")));
   expect_same(read("two-tables", {.sensor = {}, .stream = "/left"}), "hdf5");
   EXPECT_EQ(read("two-tables", {.sensor = {}, .stream = "/right"}).events.front(), events.back());
   EXPECT_THAT(read("two-tables", {.sensor = {}, .stream = "/middle"}).error, HasSubstr("/left"));
@@ -153,7 +154,7 @@ TEST_F(Hdf5, ColumnsAreNamedWhereTheirNamesSayNothing) {
   expect_same(named("t=/a/when,x=/a/where[0],y=/a/where[1],p=/b/sign/up"), "hdf5");
   expect_same(named("p=b/sign/down,t=a/when,y=a/where[1],x=a/where[0]"), "hdf5");
   EXPECT_THAT(named("").error, AllOf(HasSubstr("no events"), HasSubstr("/a/when"), HasSubstr("/b/sign/up"),
-                                     HasSubstr("--columns")));
+                                     HasSubstr("ReadOptions::columns")));
   EXPECT_THAT(named("t=/a/wann,x=/a/where[0],y=/a/where[1],p=/b/sign/up").error,
               AllOf(HasSubstr("/a/wann"), HasSubstr("/a/when")));
   EXPECT_THAT(named("t=/a/when,x=/a/where,y=/a/where[1],p=/b/sign/up").error, HasSubstr("/a/where"));
@@ -161,7 +162,8 @@ TEST_F(Hdf5, ColumnsAreNamedWhereTheirNamesSayNothing) {
   EXPECT_THAT(named("t=/a/when,x=/a/where[0],y=/a/where[1],p=/b/sign/left").error, HasSubstr("left"));
   EXPECT_THAT(named("t=/a/when,x=/a/where[0],y=/a/where[1],p=/b/sign").error, HasSubstr("member"));
   EXPECT_THAT(named("t=/a/when,x=/a/where[0],y=/a/where[1]").error, HasSubstr("each of t, x, y and p"));
-  EXPECT_THAT(named("t=/a/when,x=/a/where[0],y=/a/where[1],p=/b/sign/up", "/a").error, HasSubstr("--stream"));
+  EXPECT_THAT(named("t=/a/when,x=/a/where[0],y=/a/where[1],p=/b/sign/up", "/a").error,
+              HasSubstr("ReadOptions::stream"));
   // Also in place of those that have names.
   const auto swapped =
       read("names-dv", {.sensor = SensorSize{720, 1280},
@@ -182,13 +184,13 @@ TEST_F(Hdf5, TablesOfMatlab) {
   const auto square = read("matlab-square", us("xytp"));
   EXPECT_EQ(square.events, std::vector<Event>(events.begin(), events.begin() + 4));
   EXPECT_THAT(read("matlab-matrix").error,
-              AllOf(HasSubstr("no events"), HasSubstr("/TD"), HasSubstr("--columns")));
-  EXPECT_THAT(read("matlab-struct").error, HasSubstr("--time-unit")) << "doubles that are whole";
+              AllOf(HasSubstr("no events"), HasSubstr("/TD"), HasSubstr("ReadOptions::columns")));
+  EXPECT_THAT(read("matlab-struct").error, HasSubstr("ReadOptions::time_unit")) << "doubles that are whole";
 }
 
 TEST_F(Hdf5, WholeDoublesMayBeSecondsOrMicroseconds) {
   if (!make({"whole-doubles"})) GTEST_SKIP() << kMissing;
-  EXPECT_THAT(read("whole-doubles").error, HasSubstr("--time-unit"));
+  EXPECT_THAT(read("whole-doubles").error, HasSubstr("ReadOptions::time_unit"));
   expect_same(read("whole-doubles", {.sensor = kSensor, .time_unit = "us"}), "hdf5");
 }
 
@@ -275,7 +277,7 @@ TEST_F(Hdf5, ABrokenChunkCostsItsRowsAlone) {
     EXPECT_THAT(r.report.damage->what,
                 HasSubstr("rows " + std::to_string(first) + " to " + std::to_string(last - 1)));
     EXPECT_THAT(read(layout, {.sensor = {}, .strict = true}).error,
-                AllOf(HasSubstr("--strict"), HasSubstr("byte "), HasSubstr(layout)));
+                AllOf(HasSubstr("ReadOptions::strict"), HasSubstr("byte "), HasSubstr(layout)));
   }
 }
 

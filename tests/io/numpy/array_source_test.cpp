@@ -70,7 +70,7 @@ TEST(NpyReader, FloatingPointTimesAreSeconds) {
   const Bytes floats = numbers<float>({0.000258f, 1, 2, 1, 0.07f, 3, 4, 0});
   EXPECT_EQ(read_all(npy_file("'<f4'", "(2, 4)", floats)).events, kTwo);
   const Bytes whole = numbers<double>({258, 1, 2, 1, 70'000, 3, 4, 0});
-  EXPECT_THAT(read_all(npy_file("'<f8'", "(2, 4)", whole)).error, HasSubstr("--time-unit"));
+  EXPECT_THAT(read_all(npy_file("'<f8'", "(2, 4)", whole)).error, HasSubstr("ReadOptions::time_unit"));
   EXPECT_EQ(read_all(npy_file("'<f8'", "(2, 4)", whole), read_options("", "", "us")).events, kTwo);
 }
 
@@ -124,11 +124,11 @@ TEST(NpyReader, ACutArrayIsDamage) {
 
 TEST(NpyReader, AsksWhatItCannotTell) {
   const Bytes xytp = numbers<int32_t>({5, 2, 258, 1, 3, 4, 70'000, 0});
-  EXPECT_THAT(read_all(npy_file("'<i4'", "(2, 4)", xytp)).error, HasSubstr("--columns"));
+  EXPECT_THAT(read_all(npy_file("'<i4'", "(2, 4)", xytp)).error, HasSubstr("ReadOptions::columns"));
   const Bytes ptyx = numbers<int32_t>({1, 258, 2, 5, 0, 70'000, 4, 3});
-  EXPECT_THAT(read_all(npy_file("'<i4'", "(2, 4)", ptyx)).error, HasSubstr("--columns"));
+  EXPECT_THAT(read_all(npy_file("'<i4'", "(2, 4)", ptyx)).error, HasSubstr("ReadOptions::columns"));
   EXPECT_THAT(read_all(npy_file("'<i4'", "(1, 5)", xytp)).error,
-              AllOf(HasSubstr("5 columns"), HasSubstr("--columns")));
+              AllOf(HasSubstr("5 columns"), HasSubstr("ReadOptions::columns")));
   EXPECT_THAT(read_all(npy_file("'<i4'", "(8,)", xytp)).error, HasSubstr("neither"));
   EXPECT_THAT(read_all(npy_file("'<i4'", "(2, 4)", xytp, 1, "True")).error, HasSubstr("ascontiguousarray"));
   EXPECT_THAT(read_all(npy_file("[('t', '<i4'), ('x', '<i4')]", "(2,)", xytp)).error, HasSubstr("rename"));
@@ -165,7 +165,7 @@ TEST(NpyReader, FieldsAreNamedWhereTheirNamesSayNothing) {
   };
   EXPECT_EQ(named("t=when,x=where[0],y=where[1],p=sign").events, kTwo);
   EXPECT_EQ(named("p=sign,y=where[1],x=where[0],t=when").events, kTwo);
-  EXPECT_THAT(named("").error, HasSubstr("--columns"));
+  EXPECT_THAT(named("").error, HasSubstr("ReadOptions::columns"));
   EXPECT_THAT(named("t=wann,x=where[0],y=where[1],p=sign").error,
               AllOf(HasSubstr("wann"), HasSubstr("when")));
   EXPECT_THAT(named("t=when,x=where,y=where[1],p=sign").error, HasSubstr("2 columns"));
@@ -215,7 +215,7 @@ TEST_F(NpzReader, OfSeveralTheOneThatIsNamedOrCalledEvents) {
   const Bytes other = npy_file("'<i4'", "(1, 4)", numbers<int32_t>({9, 8, 7, 1}));
   EXPECT_EQ(read({{"other.npy", other}, {"events.npy", rows_}}).events, kTwo);
   EXPECT_THAT(read({{"left.npy", other}, {"right.npy", rows_}}).error,
-              AllOf(HasSubstr("left, right"), HasSubstr("--stream")));
+              AllOf(HasSubstr("left, right"), HasSubstr("ReadOptions::stream")));
   EXPECT_EQ(read({{"left.npy", other}, {"right.npy", rows_}}, read_options("right")).events, kTwo);
   EXPECT_THAT(read({{"left.npy", other}}, read_options("middle")).error, HasSubstr("no array 'middle'"));
   EXPECT_THAT(read({{"meta.npy", object_}}).error, HasSubstr("meta"));

@@ -122,7 +122,7 @@ TEST(Open, NamesWhatItCannotRead) {
   EXPECT_THAT(error(""), HasSubstr("empty"));
   const std::string what = error("what is this?");
   EXPECT_THAT(what, AllOf(HasSubstr("test.raw"), HasSubstr("not recognised"), HasSubstr("scarf formats"),
-                          HasSubstr("--format")));
+                          HasSubstr("ReadOptions::format")));
   EXPECT_THAT(what, Not(HasSubstr("\n")));
 }
 
@@ -265,7 +265,7 @@ TEST(Open, RequireSensorAsksForTheOption) {
   const auto unknown = open_input(ByteReader::over(without), "a.raw");
   const auto known = open_input(ByteReader::over(with), "a.raw");
   EXPECT_THAT(require_sensor(**unknown, "a.raw").error().message,
-              AllOf(HasSubstr("a.raw"), HasSubstr("--geometry WxH")));
+              AllOf(HasSubstr("a.raw"), HasSubstr("ReadOptions::sensor WxH")));
   EXPECT_EQ(*require_sensor(**known, "a.raw"), (SensorSize{640, 480}));
 }
 

@@ -176,7 +176,7 @@ TEST(Triggers, RefuseWhatTheyHaveNoUseFor) {
   EXPECT_THAT(
       triggers_of(evt2_file({0x80000001u}), {.sensor = std::nullopt, .time_shift = TimeShift::first_event})
           .error,
-      HasSubstr("--time-shift"));
+      HasSubstr("ReadOptions::time_shift"));
   EXPECT_THAT(triggers_of(bytes_of("0.1 1 1 1\n")).error, HasSubstr("no triggers"));
 }
 

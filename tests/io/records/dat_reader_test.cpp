@@ -30,7 +30,7 @@ TEST(DatReader, DecodesVersion1ByBit) {
 
 TEST(DatReader, OldFilesWithoutAHeaderAreReadByName) {
   const Bytes bytes = with_words<uint32_t>("", {7, 0b1'11101111'100101111u});
-  EXPECT_THAT(read_all(bytes).error, HasSubstr("--format"));
+  EXPECT_THAT(read_all(bytes).error, HasSubstr("ReadOptions::format"));
   const auto r = read_all(bytes, {.sensor = SensorSize{304, 240}, .format = "dat"});
   EXPECT_THAT(r.events, ElementsAre(Event{7, 303, 239, 1}));
   EXPECT_EQ(r.sensor, (SensorSize{304, 240}));

@@ -177,8 +177,9 @@ TEST_F(MadeBags, PolaritiesThatAreNoBooleansAreCounted) {
 
 TEST_F(MadeBags, Aedat4WithTwoCameras) {
   if (!make("aedat4-zstd-2", "aedat4")) GTEST_SKIP() << kMissing;
-  EXPECT_THAT(read("aedat4-zstd-2").error, AllOf(HasSubstr("--stream"), HasSubstr("0 (346x260 from CAMERA0)"),
-                                                 HasSubstr("1 (346x260 from CAMERA1)")));
+  EXPECT_THAT(read("aedat4-zstd-2").error,
+              AllOf(HasSubstr("ReadOptions::stream"), HasSubstr("0 (346x260 from CAMERA0)"),
+                    HasSubstr("1 (346x260 from CAMERA1)")));
   expect_written(read("aedat4-zstd-2", {.sensor = {}, .stream = "0"}), "aedat4");
   auto second = read("aedat4-zstd-2", {.sensor = {}, .stream = "1"});
   for (Event& e : second.events) e.x = static_cast<uint16_t>(345 - e.x);

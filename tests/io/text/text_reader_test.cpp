@@ -195,14 +195,14 @@ TEST(Columns, OptionsSayOrderAndUnit) {
 }
 
 TEST(Columns, WholeNumbersCouldBeSecondsOrMicroseconds) {
-  EXPECT_THAT(read_text("1000 1 2 1\n2500 3 4 0\n").error, HasSubstr("--time-unit"));
+  EXPECT_THAT(read_text("1000 1 2 1\n2500 3 4 0\n").error, HasSubstr("ReadOptions::time_unit"));
   // A fraction anywhere in the beginning decides.
   EXPECT_EQ(read_text("1 1 2 1\n2.5 3 4 0\n").error, "");
 }
 
 TEST(Columns, OfTwoCamerasOneIsChosen) {
   const std::string lines = "10 1 2 1 0 5.5\n20 3 4 0 1 5.5\n30 5 6 1 0 5.5\n";
-  EXPECT_THAT(read_text(lines, read_options("", "txypc_", "us")).error, HasSubstr("--stream"));
+  EXPECT_THAT(read_text(lines, read_options("", "txypc_", "us")).error, HasSubstr("ReadOptions::stream"));
   EXPECT_THAT(read_text(lines, read_options("0", "txypc_", "us")).events,
               ElementsAre(Event{10, 1, 2, 1}, Event{30, 5, 6, 1}));
   EXPECT_THAT(read_text(lines, read_options("1", "txypc_", "us")).events, ElementsAre(Event{20, 3, 4, 0}));
@@ -283,7 +283,7 @@ TEST(Columns, NamesMaySayTheUnit) {
   EXPECT_EQ(read_text(lines("t_ms", "e-3")).events, kThree);
   // What is asked for counts.
   EXPECT_EQ(read_text(lines("t_us", "000"), read_options("", "", "ns")).events, kThree);
-  EXPECT_THAT(read_text(lines("timestamp", "")).error, HasSubstr("--time-unit"));
+  EXPECT_THAT(read_text(lines("timestamp", "")).error, HasSubstr("ReadOptions::time_unit"));
 }
 
 TEST(Columns, EmptyFieldsAreFieldsWhereAMarkPartsThem) {
@@ -311,13 +311,13 @@ TEST(Columns, NumbersWithDecimalsInEveryColumn) {
   const std::vector<Event> three = {{294, 7, 85, 0}, {520, 72, 42, 1}, {805, 54, 37, 0}};
   EXPECT_EQ(read_text(savetxt, read_options("", "xytp", "s")).events, three);
   // The order is not the format's own: told, with the one that fits.
-  EXPECT_THAT(read_text(savetxt).error, HasSubstr("--columns xytp"));
+  EXPECT_THAT(read_text(savetxt).error, HasSubstr("ReadOptions::columns xytp"));
   EXPECT_EQ(
       read_text("0.000294 7.000000 85.000000 0.000000\n0.00052 72. 42.0 1.0\n805e-6 54.0 37 -1.0\n").events,
       three);
   // Whole microseconds, as floating-point numbers are printed, are no seconds.
   EXPECT_THAT(read_text("t,x,y,p\n23.0,30.0,235.0,0.0\n48.0,333.0,72.0,1.0\n").error,
-              HasSubstr("--time-unit"));
+              HasSubstr("ReadOptions::time_unit"));
   // A place between pixels is none of a pixel.
   const auto r = read_text("0.1 1.0 2.0 1\n0.2 1.5 2.0 1\n0.3 1.0 2.25 1\n", read_options("", "txyp"));
   EXPECT_THAT(r.events, ElementsAre(Event{100'000, 1, 2, 1}));
@@ -333,7 +333,8 @@ TEST(Columns, NamesThatAreNotUnderstoodAreRefused) {
     const Text lines = lines_of_three(first, [&](const Text& t, const Text& x, const Text& y, const Text& p) {
       return t + separator + x + separator + y + separator + p;
     });
-    EXPECT_THAT(read_text(lines, read_options("", "", "us")).error, HasSubstr("--columns")) << first;
+    EXPECT_THAT(read_text(lines, read_options("", "", "us")).error, HasSubstr("ReadOptions::columns"))
+        << first;
     const auto named = read_text(lines, read_options("", "txyp", "us"));
     EXPECT_EQ(named.events, kThree) << first;
     EXPECT_EQ(named.report.unknown_words, 0u) << first;
@@ -378,7 +379,7 @@ TEST(Columns, WithoutNamesTheOrderMustSuitTheLines) {
     if (order == "txyp") {
       EXPECT_EQ(plain.events.size(), 100u);
     } else {
-      EXPECT_THAT(plain.error, HasSubstr("--columns " + order)) << order;
+      EXPECT_THAT(plain.error, HasSubstr("ReadOptions::columns " + order)) << order;
     }
     EXPECT_EQ(read_text(lines, read_options("", order)).events.size(), 100u) << order;
   }
@@ -422,7 +423,7 @@ TEST(TextReader, PolaritiesThatTheFormatDoesNotDefineAreCounted) {
   ReadOptions strict;
   strict.strict = true;
   EXPECT_THAT(read_text("t,x,y,p\n0.1,1,2,1\n0.2,1,2,2\n", strict).error,
-              AllOf(HasSubstr("byte 18"), HasSubstr("polarity"), HasSubstr("--strict")));
+              AllOf(HasSubstr("byte 18"), HasSubstr("polarity"), HasSubstr("ReadOptions::strict")));
 }
 
 TEST(Csv, GeometryMayComeWithNames) {
@@ -437,7 +438,7 @@ TEST(Csv, GeometryMayComeWithNames) {
   EXPECT_EQ(r.events, kThree);
   // Lines that do not suit OpenEB's order are not taken for it.
   EXPECT_THAT(read_text("%geometry:346,260\n23,30,235,0\n48,333,72,1\n59,7,8,1\n").error,
-              HasSubstr("--columns txyp"));
+              HasSubstr("ReadOptions::columns txyp"));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(YarpReader, Version2WithTicks) {
   EXPECT_EQ(r.events[15], (Event{8'000'000 + 56 + 2, 7, 3, 0}));
   ReadOptions options;
   options.yarp_time = "packet";
-  EXPECT_THAT(read_log(log, options).error, HasSubstr("leave --yarp-time out"));
+  EXPECT_THAT(read_log(log, options).error, HasSubstr("leave ReadOptions::yarp_time out"));
   // Without ticks there is no unit to name.
   EXPECT_THAT(read_log(packet("1 2.5", 3, {word(1, 2, 1)}), read_options("", "", "us")).error,
               HasSubstr("no ticks"));
@@ -116,7 +116,7 @@ TEST(YarpReader, Version2WithTicks) {
 TEST(YarpReader, OfTwoCamerasOneIsChosen) {
   const std::string log = packet("1 1.0", 0, {word(1, 2, 1, kLeft), word(3, 4, 0, kRight)}) +
                           packet("2 1.5", 0, {word(5, 6, 1, kLeft)});
-  EXPECT_THAT(read_log(log).error, HasSubstr("--stream"));
+  EXPECT_THAT(read_log(log).error, HasSubstr("ReadOptions::stream"));
   EXPECT_THAT(read_log(log, read_options("left")).events,
               ElementsAre(Event{1'000'000, 1, 2, 1}, Event{1'500'000, 5, 6, 1}));
   EXPECT_THAT(read_log(log, read_options("right")).events, ElementsAre(Event{1'000'000, 3, 4, 0}));
