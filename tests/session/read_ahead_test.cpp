@@ -66,7 +66,7 @@ TEST(ReadAhead, GivesWhatTheSourceGivesAndItsReport) {
 
 TEST(ReadAhead, MayBeDroppedWhileItReads) {
   for (size_t n = 0; n < 20; ++n) {
-    ReadAhead ahead(std::make_unique<VectorSource>(random_events(20'000, kSensor), kSensor, /*at_once=*/100));
+    ReadAhead ahead(std::make_unique<VectorSource>(random_events(2'000, kSensor), kSensor, /*at_once=*/100));
     std::vector<Event> some(50);
     for (size_t i = 0; i < n; ++i) ASSERT_TRUE(ahead.read(some));
   }
