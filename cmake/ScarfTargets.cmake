@@ -7,10 +7,17 @@ target_compile_options(scarf_settings INTERFACE
   # g++ 12 sees overlaps in std::string that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<BOOL:${SCARF_WERROR}>:-Werror>)
-if(SCARF_SANITIZE)
-  target_compile_options(scarf_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  target_link_options(scarf_settings INTERFACE -fsanitize=address,undefined)
+set(SCARF_SANITIZE_FLAGS "")
+if(SCARF_SANITIZE MATCHES "^(address|ON)$")
+  set(SCARF_SANITIZE_FLAGS -fsanitize=address,undefined)
+  target_compile_options(scarf_settings INTERFACE ${SCARF_SANITIZE_FLAGS} -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+elseif(SCARF_SANITIZE STREQUAL "thread")
+  set(SCARF_SANITIZE_FLAGS -fsanitize=thread)
+  target_compile_options(scarf_settings INTERFACE ${SCARF_SANITIZE_FLAGS} -fno-omit-frame-pointer)
+elseif(SCARF_SANITIZE)
+  message(FATAL_ERROR "SCARF_SANITIZE is ${SCARF_SANITIZE}: give address or thread, or leave it empty")
 endif()
+target_link_options(scarf_settings INTERFACE ${SCARF_SANITIZE_FLAGS})
 
 # A room is a folder of sources and the set of what it may include: its own headers, and those of the rooms and public
 # headers that it names. Nothing else is on its include path, so what is not named does not compile. Headers are found
@@ -126,10 +133,11 @@ function(scarf_component name)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC})
 endfunction()
 
-# scarf_test_program(NAME FOLDERS folder... LIBRARIES library...): a GoogleTest program of all sources in these folders of
-# tests/, each of its tests known to ctest. Tests may include the headers of every room.
+# scarf_test_program(NAME [FAST] [SLOW pattern] FOLDERS folder... LIBRARIES library...): a GoogleTest program of all sources
+# in these folders of tests/, each of its tests known to ctest. Tests may include the headers of every room. FAST: its tests
+# have the label `fast`, which ./dev runs, but for those of SLOW (as --gtest_filter): all of that label in under a minute.
 function(scarf_test_program name)
-  cmake_parse_arguments(ARG "" "" "FOLDERS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "FAST" "SLOW" "FOLDERS;LIBRARIES" ${ARGN})
   set(sources)
   foreach(folder IN LISTS ARG_FOLDERS)
     file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${folder}/*.cpp")
@@ -138,7 +146,17 @@ function(scarf_test_program name)
   add_executable(${name} ${sources})
   scarf_sees_every_room(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} scarf_settings GTest::gtest GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(labels)
+  set(filter)
+  if(ARG_FAST)
+    set(labels LABELS fast)
+    set_property(GLOBAL APPEND PROPERTY SCARF_FAST_PROGRAMS ${name})
+    if(ARG_SLOW)
+      set(filter TEST_FILTER "*-${ARG_SLOW}")
+      gtest_discover_tests(${name} TEST_FILTER "${ARG_SLOW}" TEST_LIST ${name}_slow DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+    endif()
+  endif()
+  gtest_discover_tests(${name} ${filter} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${labels})
 endfunction()
 
 # Lets a target include the headers of every room, and from the project's folder.
