@@ -86,6 +86,7 @@ std::string in_options(const std::string& message) {
   for (const auto& [library, program] :
        {std::pair{"WriteOptions::overwrite", "--overwrite"}, std::pair{"formats()", "`scarf formats`"},
         std::pair{"name a Shard", "give --shard"},
+        std::pair{"open_triggers() reads them", "`scarf triggers` reads them"},
         std::pair{"write_state_dump() writes one", "write one with scarf digest --dump"},
         std::pair{"use fewer workers", "use fewer --jobs"}}) {
     for (size_t at = 0; (at = said.find(library, at)) != std::string::npos;) {

@@ -20,9 +20,8 @@ using testing::Not;
 // The texts between quotes of a line that is no comment and no include.
 std::vector<std::string> literals(const std::string& line) {
   static const std::regex ignored(R"(^\s*(//|#))");
-  static const std::regex literal(R"("((?:[^"\\]|\\.)*)") ");
-      std::vector<std::string>
-          found;
+  static const std::regex literal(R"re("((?:[^"\\]|\\.)*)")re");
+  std::vector<std::string> found;
   if (std::regex_search(line, ignored)) return found;
   for (auto m = std::sregex_iterator(line.begin(), line.end(), literal); m != std::sregex_iterator(); ++m) {
     found.push_back((*m)[1]);
@@ -62,7 +61,8 @@ TEST(Messages, TheLookFindsOptionsAndSubCommands) {
   EXPECT_TRUE(names_an_option("`scarf formats` lists them"));
   EXPECT_FALSE(names_an_option("use --array=0-9"));
   EXPECT_FALSE(names_an_option("ReadOptions::strict"));
-  EXPECT_EQ(literals(R"(  return bad("one", two, "three");)"), (std::vector<std::string>{"one", "three"}));
+  EXPECT_EQ(literals(R"re(  return bad("one", two, "three");)re"),
+            (std::vector<std::string>{"one", "three"}));
   EXPECT_TRUE(literals("  // \"--strict\"").empty());
 }
 

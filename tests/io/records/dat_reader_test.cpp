@@ -50,7 +50,7 @@ TEST(DatReader, SaysWhatItDoesNotRead) {
   const auto error = [](std::string_view header, std::string_view type) {
     return read_all(dat_file(header, type, {0, 0})).error;
   };
-  EXPECT_THAT(error("% Version 2\n", "\x0E\x08"), HasSubstr("scarf triggers"));
+  EXPECT_THAT(error("% Version 2\n", "\x0E\x08"), HasSubstr("open_triggers()"));
   EXPECT_THAT(error("% Version 2\n", "\x28\x10"), HasSubstr("16 bytes"));
   EXPECT_THAT(error("% Version 2\n", "\x0D\x08"), HasSubstr("type 13"));
   EXPECT_THAT(error("% Version 3\n", kEvents), HasSubstr("Version 3"));
