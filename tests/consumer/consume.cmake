@@ -33,9 +33,11 @@ if(LAUNCHER)
   list(APPEND settings "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
 endif()
 
+list(JOIN PARTS "," parts)  # a list would become several arguments
+list(JOIN CONSUMERS "," consumers)
 step("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${WORK}/build" -G "${GENERATOR}" --no-warn-unused-cli
   -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}" "-DVERSION=${VERSION}"
-  "-DPARTS=${PARTS}" "-DCONSUMERS=${CONSUMERS}" "-DEXAMPLE=${SCARF_SOURCE}/examples/velocity_invariant.cpp" ${settings})
+  "-DPARTS=${parts}" "-DCONSUMERS=${consumers}" "-DEXAMPLE=${SCARF_SOURCE}/examples/velocity_invariant.cpp" ${settings})
 step("${CMAKE_COMMAND}" --build "${WORK}/build" -j1)
 foreach(consumer IN LISTS CONSUMERS)
   step("${CMAKE_COMMAND}" -E chdir "${WORK}" "${WORK}/build/${consumer}_consumer")
