@@ -18,7 +18,7 @@ std::string option_name(const Setting& setting) {
 
 void set_or_throw(const Setting& setting, const std::string& word) {
   const auto r = set(setting, word);
-  if (!r) throw CLI::ValidationError(option_name(setting), r.error().message);
+  if (!r) throw CLI::ValidationError(option_name(setting), in_options(r.error().message));
 }
 
 CLI::Option* add_setting(CLI::App& app, const Setting& setting) {
@@ -47,15 +47,31 @@ CLI::Option* add_setting(CLI::App& app, const Setting& setting) {
       ->type_name(kWordType);
 }
 
+// What the library says of things that are no settings of a request, in words of the program.
+std::string in_commands(std::string said) {
+  for (const auto& [library, program] :
+       {std::pair{"WriteOptions::overwrite", "--overwrite"}, std::pair{"formats()", "`scarf formats`"},
+        std::pair{"representations()", "`scarf representations`"}, std::pair{"name a Shard", "give --shard"},
+        std::pair{"open_triggers() reads them", "`scarf triggers` reads them"},
+        std::pair{"write_state_dump() writes one", "write one with scarf digest --dump"},
+        std::pair{"use fewer workers", "use fewer --jobs"}}) {
+    for (size_t at = 0; (at = said.find(library, at)) != std::string::npos;) {
+      said.replace(at, std::string_view(library).size(), program);
+      at += std::string_view(program).size();
+    }
+  }
+  return said;
+}
+
 }  // namespace
 
 void add_settings(CLI::App& app, const Settings& settings) {
   for (const Setting& setting : settings.all()) {
     CLI::Option* const option = add_setting(app, setting);
     if (!setting.group.empty()) option->group(setting.group);
-    if (!setting.choices.empty() && setting.kind == Setting::Kind::word) {
-      option->description(text(setting.help, " (", listed(setting.choices), ")"));
-    }
+    const bool chosen = !setting.choices.empty() && setting.kind == Setting::Kind::word;
+    option->description(
+        in_commands(setting.help + (chosen ? text(" (", listed(setting.choices), ")") : std::string())));
     if (setting.positional) option->required();
   }
   for (const auto& [one, other] : settings.exclusions()) {
@@ -81,20 +97,7 @@ std::string in_options(const std::string& message) {
   Settings all = stream_settings(stream);
   all.join(frame_settings(frames));
   all.join(product_settings(products, ""));
-  std::string said = with_names(message, all, option_name);
-  // What is no setting of a request.
-  for (const auto& [library, program] :
-       {std::pair{"WriteOptions::overwrite", "--overwrite"}, std::pair{"formats()", "`scarf formats`"},
-        std::pair{"name a Shard", "give --shard"},
-        std::pair{"open_triggers() reads them", "`scarf triggers` reads them"},
-        std::pair{"write_state_dump() writes one", "write one with scarf digest --dump"},
-        std::pair{"use fewer workers", "use fewer --jobs"}}) {
-    for (size_t at = 0; (at = said.find(library, at)) != std::string::npos;) {
-      said.replace(at, std::string_view(library).size(), program);
-      at += std::string_view(program).size();
-    }
-  }
-  return said;
+  return in_commands(with_names(message, all, option_name));
 }
 
 }  // namespace scarf::tools

@@ -150,7 +150,7 @@ Result<Options> parse_settings(const SettingWords& words) {
   for (const std::string& output : options.outputs) {
     if (auto r = check_output(options.frames, output); !r) return illegal(in_settings(r.error().message));
   }
-  if (auto r = check_products(options); !r) return r.error();
+  if (auto r = check_products(options); !r) return illegal(in_settings(r.error().message));
   if (auto r = check_use(options); !r) return r.error();
   return options;
 }

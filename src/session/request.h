@@ -4,7 +4,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/parse.h"
@@ -49,6 +51,9 @@ Settings read_settings(ReadOptions& options);
 Settings empty_settings(bool& allow_empty);
 /// The representation, its parameters, and the filters in front. `more`: further names of representations.
 Settings representation_settings(StreamRequest& request, const std::vector<std::string>& more = {});
+/// The parameters of some representations by name, each once, whoever has it; all but `without`.
+Settings parameter_settings(std::map<std::string, std::string>& words,
+                            std::span<const RepresentationInfo> owners, std::string_view without = {});
 /// The batches and who does the work.
 Settings work_settings(StreamRequest& request);
 /// All of the above.

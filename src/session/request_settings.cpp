@@ -13,32 +13,6 @@ Result<Preset> parse_preset(const std::string& word) {
   return preset_from_name(word);
 }
 
-// Parameters of the registry become settings of the same name, each once, whoever has it.
-void add_parameters(Settings& settings, StreamRequest& request) {
-  struct Shared {
-    std::string description;
-    std::string owners;
-  };
-  std::map<std::string, Shared> shared;
-  for (const RepresentationInfo& info : representations().subspan(1)) {
-    for (const ParameterInfo& p : info.parameters) {
-      Shared& s = shared[p.name];
-      s.owners += text(s.owners.empty() ? "" : "; ", info.name, ": ", p.range, ", default ", p.value);
-      if (s.description.empty()) s.description = p.description;
-    }
-  }
-  for (const auto& [name, s] : shared) {
-    if (name == "accumulation") continue;  // SCARF's serves
-    settings
-        .add(Kind::word, name, text(s.description, " (", s.owners, ")"),
-             [&request, key = name](const std::string& word) -> Result<void> {
-               request.parameters[key] = word;
-               return {};
-             })
-        .in("Other representations");
-  }
-}
-
 }  // namespace
 
 Settings read_settings(ReadOptions& o) {
@@ -48,7 +22,10 @@ Settings read_settings(ReadOptions& o) {
       .add_parsed("geometry", o.sensor, parse_sensor, "Sensor size WxH, where the recording does not say",
                   "sensor")
       .in(reading);
-  settings.add_text(Kind::word, "format", o.format, "Format, where the content does not tell").in(reading);
+  settings
+      .add_text(Kind::word, "format", o.format,
+                "Format, where the content does not tell; formats() lists them")
+      .in(reading);
   settings.add_text(Kind::word, "stream", o.stream, "Which camera, of a recording with several").in(reading);
   settings
       .add_choice<TimePolicy>("time-policy", o.time_policy,
@@ -91,11 +68,41 @@ Settings empty_settings(bool& allow_empty) {
   return settings;
 }
 
+Settings parameter_settings(std::map<std::string, std::string>& words,
+                            std::span<const RepresentationInfo> owners, std::string_view without) {
+  Settings settings("StreamRequest");
+  struct Shared {
+    std::string description;
+    std::string owners;
+  };
+  std::map<std::string, Shared> shared;
+  for (const RepresentationInfo& info : owners) {
+    for (const ParameterInfo& p : info.parameters) {
+      Shared& s = shared[p.name];
+      s.owners += text(s.owners.empty() ? "" : "; ", info.name, ": ", p.range, ", default ", p.value);
+      if (s.description.empty()) s.description = p.description;
+    }
+  }
+  for (const auto& [name, s] : shared) {
+    if (name == without) continue;
+    settings
+        .add(Kind::word, name, text(s.description, " (", s.owners, ")"),
+             [&words, key = name](const std::string& word) -> Result<void> {
+               words[key] = word;
+               return {};
+             })
+        .in("Parameters of representations");
+  }
+  return settings;
+}
+
 Settings representation_settings(StreamRequest& o, const std::vector<std::string>& more) {
   std::vector<std::string> names = more;
   for (const RepresentationInfo& info : representations()) names.push_back(info.name);
   Settings settings("StreamRequest");
-  settings.add_text(Kind::word, "representation", o.representation, "Which picture").one_of(std::move(names));
+  settings
+      .add_text(Kind::word, "representation", o.representation, "Which picture; representations() lists them")
+      .one_of(std::move(names));
 
   const std::string grid = "Patch grid of scarf";
   settings
@@ -127,7 +134,8 @@ Settings representation_settings(StreamRequest& o, const std::vector<std::string
                  o.parameters["accumulation"] = word;
                  return {};
                });
-  add_parameters(settings, o);
+  settings.join(
+      parameter_settings(o.parameters, representations().subspan(1), "accumulation"));  // SCARF's serves
   settings
       .add(
           Kind::word, "filter",

@@ -7,6 +7,7 @@
 #include "core/parse.h"
 #include "core/text.h"
 #include "io/files/write_file.h"
+#include "session/request.h"
 #include "tools/commands.h"
 #include "tools/options.h"
 
@@ -46,25 +47,6 @@ Result<int> bench(const BenchOptions& options) {
   return options.offload ? bench_offload(options) : bench_scenes(options);
 }
 
-// The parameters of all representations, each name once.
-void add_parameter_options(CLI::App& app, BenchOptions& options, CLI::Option* representation) {
-  std::map<std::string, std::string> help;
-  for (const RepresentationInfo& info : representations()) {
-    for (const ParameterInfo& p : info.parameters) {
-      std::string& line = help[p.name];
-      line += text(line.empty() ? "" : "; ", info.name, ": ", p.description);
-    }
-  }
-  for (const auto& [name, line] : help) {
-    app.add_option_function<std::string>(
-           "--" + name, [&options, key = name](const std::string& word) { options.parameters[key] = word; },
-           line)
-        ->type_name(kWordType)
-        ->needs(representation)
-        ->group("Parameters of the representation");
-  }
-}
-
 }  // namespace
 
 void add_bench(CLI::App& program, Command& command) {
@@ -89,7 +71,10 @@ void add_bench(CLI::App& program, Command& command) {
       app->add_option("--representation", options->representation,
                       "One representation instead of scarf's presets, or of all with --paper")
           ->check(CLI::IsMember(names));
-  add_parameter_options(*app, *options, representation);
+  const Settings parameters = parameter_settings(options->parameters, representations());
+  add_settings(*app, parameters);
+  for (const Setting& parameter : parameters.all())
+    app->get_option("--" + parameter.name)->needs(representation);
 
   app->add_flag(
          "--offload", options->offload,

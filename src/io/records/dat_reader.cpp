@@ -94,7 +94,8 @@ Result<std::unique_ptr<EventSource>> open_dat(Input input, const ReadOptions& op
   const auto type = take_type(input);
   if (!type) return type.error();
   if (*type == dat::kTrigger) {
-    return Error{ErrorCode::unrecognised, "the DAT file holds triggers, no events; open_triggers() reads them"};
+    return Error{ErrorCode::unrecognised,
+                 "the DAT file holds triggers, no events; open_triggers() reads them"};
   }
   if (*type != dat::kEvent2d && *type != dat::kEventCd) {
     return bad(
