@@ -98,7 +98,7 @@ Result<void> set(const Settings& settings, const SettingWords& words) {
   for (const auto& [name, values] : words) {
     const auto& all = settings.all();
     const auto setting =
-        std::find_if(all.begin(), all.end(), [&](const Setting& f) { return f.name == name; });
+        std::find_if(all.begin(), all.end(), [&wanted = name](const Setting& s) { return s.name == wanted; });
     if (setting == all.end()) {
       std::vector<std::string> names;
       for (const Setting& known : all) names.push_back(known.name);

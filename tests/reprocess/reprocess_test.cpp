@@ -164,7 +164,7 @@ TEST_F(Reprocess, OneCorruptTimeDoesNotFillTheDisk) {
   write_text(path("recipe.toml"), "output = \".frames/\"\n");
   const Outcome outcome = run(in_to("out", text("--cpu --max-frames 100 --recipe ", path("recipe.toml"))));
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("--max-frames"));
+  EXPECT_THAT(outcome.out, HasSubstr("raise max-frames"));
   EXPECT_FALSE(fs::exists(path("out/a.txt.frames")));
 }
 
