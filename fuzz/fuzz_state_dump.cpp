@@ -5,7 +5,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const scarf::InputFolder folder;
-  auto dump = scarf::tools::StateDump::open(folder.put("state", {data, size}));
+  auto dump = scarf::StateDump::open(folder.put("state", {data, size}));
   if (!dump) return 0;
   for (int64_t patch = 0; patch < dump->geometry().patches(); ++patch) {
     const auto read = dump->next();

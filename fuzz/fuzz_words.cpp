@@ -50,21 +50,20 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       (void)time_exponent_from(word);
       break;
     case 5:
-      if (const auto rate = tools::parse_frame_rate(word))
-        require(rate->numerator > 0 && rate->denominator > 0);
-      (void)tools::parse_time_unit(word);
+      if (const auto rate = parse_frame_rate(word)) require(rate->numerator > 0 && rate->denominator > 0);
+      (void)parse_time_unit(word);
       break;
     case 6:
-      if (auto sizes = tools::parse_batch_sizes(word)) {
+      if (auto sizes = parse_batch_sizes(word)) {
         const size_t events = sizes->next();
-        require(events >= 1 && events <= tools::kMaxBatch);
+        require(events >= 1 && events <= kMaxBatch);
       }
       break;
     default:
-      if (const auto sensor = tools::parse_sensor(word)) require(sensor->width > 0 && sensor->height > 0);
-      (void)tools::parse_by(word);
-      (void)tools::parse_comma(word);
-      (void)tools::parse_positive(word);
+      if (const auto sensor = parse_sensor(word)) require(sensor->width > 0 && sensor->height > 0);
+      (void)parse_by(word);
+      (void)parse_comma(word);
+      (void)parse_positive(word);
   }
   return 0;
 }
