@@ -1,7 +1,10 @@
 // What the writers of all formats share: the check of everything before it is written.
 #pragma once
 
+#include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/base/event_check.h"
@@ -40,5 +43,14 @@ class CheckedSink : public EventSink {
   std::vector<HeaderLine> header_;
   bool begun_ = false;
 };
+
+/// Creates the file and the writer of it. Errors: as ByteWriter::create.
+template <class Writer>
+Result<std::unique_ptr<EventSink>> create_sink(const std::string& path, SensorSize sensor,
+                                               const OutputRule& rule) {
+  auto output = ByteWriter::create(path, rule);
+  if (!output) return output.error();
+  return std::unique_ptr<EventSink>(std::make_unique<Writer>(*std::move(output), sensor));
+}
 
 }  // namespace scarf

@@ -11,6 +11,7 @@
 #include "io/base/sensor_size.h"
 #include "io/base/writers.h"
 #include "io/evt/evt21.h"
+#include "io/evt/evt_format.h"
 #include "io/evt/pixel_mask.h"
 #include "io/evt/word_check.h"
 #include "io/evt/word_guess.h"
@@ -106,8 +107,7 @@ class Evt21Triggers {
     const uint32_t type = upper >> 28;
     if (type == evt21::kTimeHigh) clock_.set_high(upper);
     if (type != evt21::kTrigger || !clock_.started()) return std::nullopt;
-    return Trigger{clock_.time(upper >> 22), static_cast<uint16_t>(upper >> 8 & evt2::kTriggerInputMask),
-                   static_cast<uint8_t>(upper & 1)};
+    return evt2_trigger(clock_, upper);
   }
 
  private:
@@ -120,10 +120,6 @@ Result<std::unique_ptr<TriggerSource>> open_evt21_triggers(Input input, const Re
   if (!order) return order.error();
   return make_decoded_triggers(std::move(input), options,
                                TriggersByWord<uint64_t, Evt21Triggers>(Evt21Triggers(order->order)));
-}
-
-bool recognise_evt21(const Beginning& beginning) {
-  return beginning.last && guess_words(beginning.bytes) == kName;
 }
 
 bool looks_like(std::span<const uint8_t> bytes, ByteOrder order) {
@@ -159,15 +155,7 @@ std::optional<ByteOrder> looks_like_evt21(std::span<const uint8_t> bytes) {
   return little ? ByteOrder::little : ByteOrder::legacy;
 }
 
-const Format kEvt21Format = {.name = kName,
-                             .title = "Prophesee RAW, EVT2.1",
-                             .options = kTakesFirstHigh,
-                             .prophesee = true,
-                             .recognise = recognise_evt21,
-                             .open = open_evt21,
-                             .create = create_evt21,
-                             .open_triggers = open_evt21_triggers,
-                             .writes_header = true,
-                             .writes_triggers = true};
+const Format kEvt21Format =
+    evt_format<kName>("Prophesee RAW, EVT2.1", open_evt21, create_evt21, open_evt21_triggers);
 
 }  // namespace scarf

@@ -1,36 +1,19 @@
 // Writer of EVT2.1 in the byte order `little`: neighbours of a row share a word.
 #include <utility>
 
-#include "io/base/checked_sink.h"
-#include "io/base/prophesee_header.h"
 #include "io/base/writers.h"
 #include "io/evt/evt21.h"
+#include "io/evt/evt2_fields_writer.h"
 #include "io/evt/pixel_run.h"
 
 namespace scarf {
 namespace {
 
-class Evt21Writer final : public CheckedSink {
+class Evt21Writer final : public Evt2FieldsWriter {
  public:
-  Evt21Writer(ByteWriter output, SensorSize sensor)
-      : CheckedSink(std::move(output), sensor,
-                    {.format = "evt21",
-                     .t_min = 0,
-                     .t_end = evt2::kTimeEnd,
-                     .max_coordinate = evt2::kCoordinateMask,
-                     .trigger_inputs = evt2::kTriggerInputMask + 1,
-                     .header = true}),
-        sensor_(sensor) {}
+  Evt21Writer(ByteWriter output, SensorSize sensor) : Evt2FieldsWriter("evt21", std::move(output), sensor) {}
 
  protected:
-  void encode_header(std::span<const HeaderLine> lines) override {
-    output_.append(prophesee_header_text("evt21", sensor_, lines));
-  }
-
-  void encode_trigger(const Trigger& trigger) override {
-    put(evt21::kTrigger, set_time(trigger.t) << 22 | uint32_t{trigger.id} << 8 | trigger.value, 0);
-  }
-
   void encode(std::span<const Event> events) override {
     while (!events.empty()) {
       const Event& e = events.front();
@@ -45,25 +28,19 @@ class Evt21Writer final : public CheckedSink {
   }
 
  private:
-  uint32_t set_time(int64_t t) {
-    return clock_.set(t, [&](uint32_t high) { put(evt21::kTimeHigh, high, 0); });
-  }
+  void put_time_high(uint32_t high) override { put(evt21::kTimeHigh, high, 0); }
+  void put_trigger(uint32_t fields) override { put(evt21::kTrigger, fields, 0); }
 
   void put(evt21::Type type, uint32_t payload, uint32_t mask) {
     output_.append_word(uint64_t{type} << 60 | uint64_t{payload} << 32 | mask);
   }
-
-  SensorSize sensor_;
-  evt2::HeldClock clock_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<EventSink>> create_evt21(const std::string& path, SensorSize sensor,
                                                 const OutputRule& rule) {
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<Evt21Writer>(*std::move(output), sensor));
+  return create_sink<Evt21Writer>(path, sensor, rule);
 }
 
 }  // namespace scarf

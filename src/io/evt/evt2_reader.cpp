@@ -8,9 +8,9 @@
 #include "io/base/decoded_triggers.h"
 #include "io/base/known_formats.h"
 #include "io/base/put_event.h"
-#include "io/base/sensor_size.h"
 #include "io/base/writers.h"
 #include "io/evt/evt2.h"
+#include "io/evt/evt_format.h"
 #include "io/evt/word_check.h"
 #include "io/evt/word_guess.h"
 
@@ -79,12 +79,6 @@ BufferedSource::Decoded Evt2Reader::decode(std::span<const uint8_t> bytes, bool 
   return {at, tally_.keep(out.first(count)), count < out.size()};
 }
 
-Result<std::unique_ptr<EventSource>> open_evt2(Input input, const ReadOptions& options) {
-  const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
-  if (!sensor) return sensor.error();
-  return std::unique_ptr<EventSource>(std::make_unique<Evt2Reader>(std::move(input), *sensor, options));
-}
-
 class Evt2Triggers {
  public:
   std::optional<Trigger> take(uint32_t word) {
@@ -93,8 +87,7 @@ class Evt2Triggers {
     if (type == evt2::kTimeHigh) clock_.set_high(word);
     if (type == evt2::kImu && clock_.started()) skip_ = evt2::kImuWords - 1;
     if (type != evt2::kTrigger || !clock_.started()) return std::nullopt;
-    return Trigger{clock_.time(word >> 22), static_cast<uint16_t>(word >> 8 & evt2::kTriggerInputMask),
-                   static_cast<uint8_t>(word & 1)};
+    return evt2_trigger(clock_, word);
   }
 
  private:
@@ -105,10 +98,6 @@ class Evt2Triggers {
 Result<std::unique_ptr<TriggerSource>> open_evt2_triggers(Input input, const ReadOptions& options) {
   return make_decoded_triggers(std::move(input), options,
                                TriggersByWord<uint32_t, Evt2Triggers>(Evt2Triggers()));
-}
-
-bool recognise_evt2(const Beginning& beginning) {
-  return beginning.last && guess_words(beginning.bytes) == kName;
 }
 
 }  // namespace
@@ -147,15 +136,7 @@ bool time_highs_at_every_place(std::span<const uint8_t> bytes) {
   return count[0] > 0 && count[0] <= 3 * count[1] && count[1] <= 3 * count[0];
 }
 
-const Format kEvt2Format = {.name = kName,
-                            .title = "Prophesee RAW, EVT2",
-                            .options = kTakesFirstHigh,
-                            .prophesee = true,
-                            .recognise = recognise_evt2,
-                            .open = open_evt2,
-                            .create = create_evt2,
-                            .open_triggers = open_evt2_triggers,
-                            .writes_header = true,
-                            .writes_triggers = true};
+const Format kEvt2Format =
+    evt_format<kName>("Prophesee RAW, EVT2", open_evt<Evt2Reader>, create_evt2, open_evt2_triggers);
 
 }  // namespace scarf

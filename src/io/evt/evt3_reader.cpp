@@ -6,10 +6,10 @@
 #include "io/base/buffered_source.h"
 #include "io/base/decoded_triggers.h"
 #include "io/base/known_formats.h"
-#include "io/base/sensor_size.h"
 #include "io/base/writers.h"
 #include "io/evt/evt3.h"
 #include "io/evt/evt3_decoder.h"
+#include "io/evt/evt_format.h"
 #include "io/evt/word_check.h"
 #include "io/evt/word_guess.h"
 
@@ -40,18 +40,8 @@ BufferedSource::Decoded Evt3Reader::decode(std::span<const uint8_t> bytes, bool 
   return {decoded.bytes, tally_.keep(out.first(decoded.events)), decoded.events < out.size()};
 }
 
-Result<std::unique_ptr<EventSource>> open_evt3(Input input, const ReadOptions& options) {
-  const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
-  if (!sensor) return sensor.error();
-  return std::unique_ptr<EventSource>(std::make_unique<Evt3Reader>(std::move(input), *sensor, options));
-}
-
 Result<std::unique_ptr<TriggerSource>> open_evt3_triggers(Input input, const ReadOptions& options) {
   return make_decoded_triggers(std::move(input), options, evt3::TriggerDecoder());
-}
-
-bool recognise_evt3(const Beginning& beginning) {
-  return beginning.last && guess_words(beginning.bytes) == kName;
 }
 
 }  // namespace
@@ -82,15 +72,7 @@ bool looks_like_evt3(std::span<const uint8_t> bytes) {
   return check.plausible(kSixtyMilliseconds);
 }
 
-const Format kEvt3Format = {.name = kName,
-                            .title = "Prophesee RAW, EVT3",
-                            .options = kTakesFirstHigh,
-                            .prophesee = true,
-                            .recognise = recognise_evt3,
-                            .open = open_evt3,
-                            .create = create_evt3,
-                            .open_triggers = open_evt3_triggers,
-                            .writes_header = true,
-                            .writes_triggers = true};
+const Format kEvt3Format =
+    evt_format<kName>("Prophesee RAW, EVT3", open_evt<Evt3Reader>, create_evt3, open_evt3_triggers);
 
 }  // namespace scarf

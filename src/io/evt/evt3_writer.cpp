@@ -115,9 +115,7 @@ class Evt3Writer final : public CheckedSink {
 
 Result<std::unique_ptr<EventSink>> create_evt3(const std::string& path, SensorSize sensor,
                                                const OutputRule& rule) {
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<Evt3Writer>(*std::move(output), sensor));
+  return create_sink<Evt3Writer>(path, sensor, rule);
 }
 
 }  // namespace scarf

@@ -7,9 +7,9 @@
 #include "io/base/buffered_source.h"
 #include "io/base/decoded_triggers.h"
 #include "io/base/known_formats.h"
-#include "io/base/sensor_size.h"
 #include "io/base/writers.h"
 #include "io/evt/evt4.h"
+#include "io/evt/evt_format.h"
 #include "io/evt/pixel_mask.h"
 #include "io/evt/word_check.h"
 #include "io/evt/word_guess.h"
@@ -81,12 +81,6 @@ BufferedSource::Decoded Evt4Reader::decode(std::span<const uint8_t> bytes, bool 
   return {at, tally_.keep(out.first(count)), count < out.size()};
 }
 
-Result<std::unique_ptr<EventSource>> open_evt4(Input input, const ReadOptions& options) {
-  const auto sensor = agreed_sensor(input.header ? input.header->sensor : std::nullopt, options.sensor);
-  if (!sensor) return sensor.error();
-  return std::unique_ptr<EventSource>(std::make_unique<Evt4Reader>(std::move(input), *sensor, options));
-}
-
 class Evt4Triggers {
  public:
   std::optional<Trigger> take(uint32_t word) {
@@ -95,8 +89,7 @@ class Evt4Triggers {
     mask_follows_ = announces_mask(type);
     if (type == evt4::kTimeHigh) clock_.set_high(word);
     if (type != evt4::kTrigger || !clock_.started()) return std::nullopt;
-    return Trigger{clock_.time(word >> 22), static_cast<uint16_t>(word >> 8 & evt2::kTriggerInputMask),
-                   static_cast<uint8_t>(word & 1)};
+    return evt2_trigger(clock_, word);
   }
 
  private:
@@ -107,10 +100,6 @@ class Evt4Triggers {
 Result<std::unique_ptr<TriggerSource>> open_evt4_triggers(Input input, const ReadOptions& options) {
   return make_decoded_triggers(std::move(input), options,
                                TriggersByWord<uint32_t, Evt4Triggers>(Evt4Triggers()));
-}
-
-bool recognise_evt4(const Beginning& beginning) {
-  return beginning.last && guess_words(beginning.bytes) == kName;
 }
 
 }  // namespace
@@ -144,15 +133,7 @@ bool looks_like_evt4(std::span<const uint8_t> bytes) {
   return check.plausible(evt2::kTimeHighsPerSecond);
 }
 
-const Format kEvt4Format = {.name = kName,
-                            .title = "Prophesee RAW, EVT4",
-                            .options = kTakesFirstHigh,
-                            .prophesee = true,
-                            .recognise = recognise_evt4,
-                            .open = open_evt4,
-                            .create = create_evt4,
-                            .open_triggers = open_evt4_triggers,
-                            .writes_header = true,
-                            .writes_triggers = true};
+const Format kEvt4Format =
+    evt_format<kName>("Prophesee RAW, EVT4", open_evt<Evt4Reader>, create_evt4, open_evt4_triggers);
 
 }  // namespace scarf

@@ -47,9 +47,7 @@ Result<std::unique_ptr<EventSink>> create_npy(const std::string& path, SensorSiz
         ErrorCode::illegal_parameter,
         "npy begins with the number of events, so that it cannot go to standard output; name a file"};
   }
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<NpyWriter>(*std::move(output), sensor));
+  return create_sink<NpyWriter>(path, sensor, rule);
 }
 
 }  // namespace scarf

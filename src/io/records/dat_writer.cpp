@@ -46,9 +46,7 @@ class DatWriter final : public CheckedSink {
 
 Result<std::unique_ptr<EventSink>> create_dat(const std::string& path, SensorSize sensor,
                                               const OutputRule& rule) {
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<DatWriter>(*std::move(output), sensor));
+  return create_sink<DatWriter>(path, sensor, rule);
 }
 
 }  // namespace scarf

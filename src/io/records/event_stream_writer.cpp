@@ -45,9 +45,7 @@ class EventStreamWriter final : public CheckedSink {
 
 Result<std::unique_ptr<EventSink>> create_event_stream(const std::string& path, SensorSize sensor,
                                                        const OutputRule& rule) {
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<EventStreamWriter>(*std::move(output), sensor));
+  return create_sink<EventStreamWriter>(path, sensor, rule);
 }
 
 }  // namespace scarf

@@ -37,9 +37,7 @@ class CsvWriter final : public CheckedSink {
 
 Result<std::unique_ptr<EventSink>> create_csv(const std::string& path, SensorSize sensor,
                                               const OutputRule& rule) {
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<CsvWriter>(*std::move(output), sensor));
+  return create_sink<CsvWriter>(path, sensor, rule);
 }
 
 }  // namespace scarf

@@ -46,9 +46,7 @@ class TextWriter final : public CheckedSink {
 
 Result<std::unique_ptr<EventSink>> create_text(const std::string& path, SensorSize sensor,
                                                const OutputRule& rule) {
-  auto output = ByteWriter::create(path, rule);
-  if (!output) return output.error();
-  return std::unique_ptr<EventSink>(std::make_unique<TextWriter>(*std::move(output), sensor));
+  return create_sink<TextWriter>(path, sensor, rule);
 }
 
 }  // namespace scarf
